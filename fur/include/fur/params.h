@@ -25,6 +25,8 @@ struct FurParams {
   double selfShadow = 0.9;         // [self_shadow] light left at the root, 0..1 (source_self_shadow's first number)
   double specularPower = 30;       // [specular_power] > 0
   double specularScale = 0.35;     // [specular_scale] >= 0
+  double heightFalloff = 0;        // [height_falloff] share of the coverage lost at the tip, 0..1: a(h) (1 - f h). The cat's
+                                   // extras say source_shell_alpha = alpha*(1-i/16), which reads as 1
   bool operator==(const FurParams&) const = default;
 };
 

@@ -1,0 +1,282 @@
+// fur render: a model, a camera and a technique become a PNG on one backend, or on each with their difference.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "fur/builtin.h"
+#include "fur/gltf.h"
+#include "fur/image_io.h"
+#include "render_job.h"
+#include "stats.h"
+
+namespace app {
+namespace {
+
+using fur::Done;
+using fur::Error;
+using fur::ErrorCode;
+using fur::Result;
+
+constexpr uint32_t kMaxSide = 16384;
+constexpr uint32_t kMaxShells = 512;
+constexpr uint32_t kMaxAnimals = 10000;
+
+struct RenderFlags {
+  std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "seed", look = "correct", semantics,
+              stats, eye, target, adapter, furFile, furMaterial, background;
+  uint32_t samples = 1, shells = 0, count = 1, repeat = 1;
+  double fov = 0, zNear = 0, zFar = 0, furLength = 0, uvScale = 0;
+  bool noFins = false, noShells = false, validate = false;
+};
+
+Result<glm::dvec3> ParseVector(const std::string& text, const char* flag) {
+  glm::dvec3 v(0);
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &v.x, &v.y, &v.z, &rest) == 3 && std::isfinite(v.x + v.y + v.z)) return v;
+  return Error{ErrorCode::Usage, fmt::format("{} takes three finite numbers X,Y,Z, not '{}'", flag, text)};
+}
+
+Result<Done> ParseSize(const std::string& text, fur::RenderSettings* s) {
+  unsigned w = 0, h = 0;
+  char rest = 0;
+  const bool ok = std::sscanf(text.c_str(), "%ux%u%c", &w, &h, &rest) == 2 && text.find('-') == std::string::npos;
+  if (!ok || w < 1 || h < 1 || w > kMaxSide || h > kMaxSide)
+    return Error{ErrorCode::Usage, fmt::format("--size takes WxH with sides of 1..{}, not '{}'", kMaxSide, text)};
+  s->width = w;
+  s->height = h;
+  return Done{};
+}
+
+Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
+  fur::RenderSettings s;
+  if (Result<Done> size = ParseSize(f.size, &s); !size) return size.error();
+  s.samples = f.samples;
+  s.look = f.look == "seed" ? fur::Look::Seed : fur::Look::Correct;
+  s.semantics = f.semantics == "volume" ? fur::Semantics::Volume : fur::Semantics::Sheet;
+  s.shells = f.shells;
+  s.drawFins = !f.noFins;
+  s.drawShells = !f.noShells;
+  if (f.background.empty()) return s;
+  Result<glm::dvec3> background = ParseVector(f.background, "--background");
+  if (!background) return background.error();
+  s.background = *background;
+  return s;
+}
+
+// FurParams keys that flags set, as the JSON that the loader applies last.
+std::string FurOverrides(const RenderFlags& f) {
+  nlohmann::json j = nlohmann::json::object();
+  if (f.furLength > 0) j["length_scale"] = f.furLength;
+  if (f.uvScale > 0) j["layer_uv_scale"] = f.uvScale;
+  return j.empty() ? std::string() : j.dump();
+}
+
+Result<fur::Model> LoadModel(const RenderFlags& f) {
+  if (f.model.empty() && (!f.furFile.empty() || !f.furMaterial.empty() || f.furLength > 0 || f.uvScale > 0))
+    return Error{ErrorCode::Usage, "--fur, --fur-material, --fur-length and --uv-scale need a MODEL; the built-in animal has its own coat"};
+  if (f.model.empty()) return fur::MakeBuiltinAnimal();
+  return fur::LoadGltf(f.model, {.furFile = f.furFile, .furOverrides = FurOverrides(f), .furMaterial = f.furMaterial});
+}
+
+// The box with the fur around it.
+fur::Bounds FurredBounds(const fur::Model& model) {
+  fur::Bounds bounds = fur::ComputeBounds(model);
+  double reach = 0;
+  for (const fur::Part& part : model.parts) {
+    const fur::Material& m = model.materials[model.primitives[part.primitive].material];
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(part.transform))));
+    if (m.fur) reach = std::max(reach, m.fur->params.length * scale);
+  }
+  bounds.min -= reach;
+  bounds.max += reach;
+  return bounds;
+}
+
+Result<fur::Camera> MakeCamera(const RenderFlags& f, const fur::Bounds& bounds, const RenderJob& job) {
+  const double aspect = double(job.settings.width) / job.settings.height;
+  const bool placed = !f.eye.empty() || !f.target.empty();
+  const double scale = fur::SceneScale(bounds);
+  fur::Camera camera;
+  if (placed) {
+    camera.fovY = f.fov > 0 ? f.fov : 65;
+    camera.eye *= scale;
+    camera.zNear *= scale;
+    camera.zFar *= scale;
+  } else {
+    camera = fur::FrameBounds(bounds, job.placements, f.fov > 0 ? f.fov : 40, aspect);
+  }
+  for (const auto& [flag, text, value] : {std::tuple{"--eye", &f.eye, &camera.eye}, {"--target", &f.target, &camera.target}}) {
+    if (text->empty()) continue;
+    Result<glm::dvec3> parsed = ParseVector(*text, flag);
+    if (!parsed) return parsed.error();
+    *value = *parsed;
+  }
+  if (f.zNear > 0) camera.zNear = f.zNear;
+  if (f.zFar > 0) camera.zFar = f.zFar;
+  if (camera.zFar <= camera.zNear) return Error{ErrorCode::Usage, "--far must be larger than --near"};
+  const glm::dvec3 view = camera.target - camera.eye;
+  if (glm::length(glm::cross(view, camera.up)) <= 1e-9 * glm::length(view))
+    return Error{ErrorCode::Usage, "--eye and --target must differ, and not be above one another: the view needs an up direction"};
+  return camera;
+}
+
+// out.png -> out.vulkan.png
+std::filesystem::path WithBackend(const std::filesystem::path& file, const std::string& backend) {
+  std::filesystem::path named = file;
+  return named.replace_extension(backend + file.extension().string());
+}
+
+// Says before the work whether the folder of an output can be written to at all.
+Result<Done> CheckOutput(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code ec;
+  if (!std::filesystem::is_directory(folder, ec))
+    return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}: {} is not a folder", file.string(), folder.string())};
+  if (std::filesystem::is_directory(file, ec))
+    return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}: it is a folder", file.string())};
+  return Done{};
+}
+
+// Whole or not at all, as WritePng.
+Result<Done> WriteText(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::path partial = file;
+  partial += ".partial";
+  std::error_code ec;
+  bool ok = false;
+  {
+    std::ofstream out(partial, std::ios::binary);
+    out << text;
+    out.close();
+    ok = bool(out);
+  }
+  if (ok) std::filesystem::rename(partial, file, ec);
+  if (ok && !ec) return Done{};
+  std::filesystem::remove(partial, ec);
+  return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}", file.string())};
+}
+
+std::string Throughput(const RenderOutcome& out) {
+  return fmt::format("{:.1f} ms a frame (median of {}; the first took {:.0f} ms), {} draws, {} fragments", Median(out.frameMs),
+                     out.frameMs.size(), out.firstFrameMs, out.counts.draws,
+                     out.counts.baseFragments + out.counts.finFragments + out.counts.shellFragments);
+}
+
+nlohmann::ordered_json AllStats(const std::vector<RenderOutcome>& outcomes, const RenderJob& job) {
+  if (outcomes.size() == 1) return StatsJson(outcomes[0], job);
+  nlohmann::ordered_json j;
+  for (const RenderOutcome& out : outcomes) j["runs"].push_back(StatsJson(out, job));
+  j["difference"] = DifferenceJson(CompareImages(outcomes[0].image, outcomes[1].image));
+  return j;
+}
+
+Result<Done> WriteOutputs(const RenderFlags& f, const RenderJob& job, const std::vector<RenderOutcome>& outcomes) {
+  for (const RenderOutcome& out : outcomes) {
+    const std::filesystem::path file = outcomes.size() > 1 ? WithBackend(f.output, out.backend) : std::filesystem::path(f.output);
+    Result<Done> written = fur::WritePng(file, out.image.width, out.image.height, out.image.pixels);
+    if (!written) return written.error();
+    fmt::print("{}: {} ({})\n  {}\n", out.backend, file.string(), out.caps.driver.data(), Throughput(out));
+  }
+  if (f.stats.empty()) return Done{};
+  return WriteText(f.stats, AllStats(outcomes, job).dump(2) + "\n");
+}
+
+void PrintDifference(const RenderOutcome& a, const RenderOutcome& b) {
+  const ImageDifference d = CompareImages(a.image, b.image);
+  fmt::print("difference {} - {}: {:.4f} % of pixels bit-equal ({} of {} differ), largest {}/255, mean {:.6f}/255\n", a.backend,
+             b.backend, 100 * d.EqualShare(), d.differing, d.pixels, d.largest, d.mean);
+}
+
+void PrintMessages(const std::vector<std::string>& messages) {
+  for (const std::string& m : messages) fmt::print(stderr, "fur: {}\n", m);
+}
+
+Result<RenderJob> PrepareJob(const RenderFlags& f, const fur::Model& model) {
+  RenderJob job;
+  Result<fur::RenderSettings> settings = MakeSettings(f);
+  if (!settings) return settings.error();
+  job.settings = *settings;
+  const fur::Bounds bounds = FurredBounds(model);
+  job.placements = fur::PlaceAnimals(f.count, fur::SceneScale(bounds));
+  Result<fur::Camera> camera = MakeCamera(f, bounds, job);
+  if (!camera) return camera.error();
+  job.camera = *camera;
+  job.repeat = f.repeat;
+  job.validate = f.validate;
+  job.adapter = f.adapter;
+  return job;
+}
+
+Result<Done> Render(const RenderFlags& f) {
+  for (const std::string* file : {&f.output, &f.stats}) {
+    if (file->empty()) continue;
+    if (Result<Done> ok = CheckOutput(*file); !ok) return ok.error();
+  }
+  if (Result<fur::RenderSettings> settings = MakeSettings(f); !settings) return settings.error();
+  Result<fur::Model> model = LoadModel(f);
+  if (!model) return model.error();
+  PrintMessages(model->warnings);
+  Result<RenderJob> job = PrepareJob(f, *model);
+  if (!job) return job.error();
+
+  std::vector<RenderOutcome> outcomes;  // all are rendered before the first file is written
+  for (const BackendEntry* backend : SelectBackends(f.backend)) {
+    Result<RenderOutcome> out = RunRenderJob(*backend, *model, *job);
+    if (!out) return out.error();
+    PrintMessages(out->messages);
+    outcomes.push_back(std::move(*out));
+  }
+  if (Result<Done> written = WriteOutputs(f, *job, outcomes); !written) return written.error();
+  if (outcomes.size() > 1) PrintDifference(outcomes[0], outcomes[1]);
+  return Done{};
+}
+
+void AddFlags(CLI::App* c, RenderFlags* f) {
+  c->add_option("MODEL", f->model, "A .gltf or .glb file; without it, the built-in animal");
+  c->add_option("-o,--output", f->output, "PNG to write; with --backend both, FILE.vulkan.png and FILE.gl.png")->capture_default_str();
+  c->add_option("--backend", f->backend, "vulkan, gl, or both (renders with each and prints the difference)")
+      ->check(CLI::IsMember({"vulkan", "gl", "both"}))->capture_default_str();
+  c->add_option("--adapter", f->adapter, "Part of an adapter's name (fur info lists them); default: the first");
+  c->add_option("--size", f->size, "Width x height in pixels")->capture_default_str();
+  c->add_option("--samples", f->samples, "Samples a pixel, 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  c->add_option("--technique", f->technique, "seed: shells and fins as published")->check(CLI::IsMember({"seed"}))->capture_default_str();
+  c->add_option("--look", f->look, "Lighting and colour: seed (as published, raw values) or correct (sRGB, linear light)")
+      ->check(CLI::IsMember({"seed", "correct"}))->capture_default_str();
+  c->add_option("--semantics", f->semantics, "A shell is a sheet (default for technique seed), or a slab of a volume")
+      ->check(CLI::IsMember({"sheet", "volume"}));
+  c->add_option("--shells", f->shells, "Number of shells, 1..512; default: as the coat says")->check(CLI::Range(1u, kMaxShells));
+  c->add_option("--eye", f->eye, "Eye, X,Y,Z; without --eye and --target the camera frames the animals");
+  c->add_option("--target", f->target, "Point looked at, X,Y,Z");
+  c->add_option("--fov", f->fov, "Vertical field of view in degrees; default 65, or 40 when framing")->check(CLI::Range(0.1, 179.0));
+  c->add_option("--near", f->zNear, "Near plane")->check(CLI::PositiveNumber);
+  c->add_option("--far", f->zFar, "Far plane")->check(CLI::PositiveNumber);
+  c->add_option("--count", f->count, "Number of animals")->check(CLI::Range(1u, kMaxAnimals))->capture_default_str();
+  c->add_option("--repeat", f->repeat, "Timed frames after the first")->check(CLI::Range(0u, 100000u))->capture_default_str();
+  c->add_option("--stats", f->stats, "JSON file for times and counts");
+  c->add_option("--fur", f->furFile, "JSON file of fur parameters (docs/fur.md)");
+  c->add_option("--fur-material", f->furMaterial, "Grow fur on the material of this name only");
+  c->add_option("--fur-length", f->furLength, "Fur length in the model's units")->check(CLI::PositiveNumber);
+  c->add_option("--uv-scale", f->uvScale, "Tiles of the fur volume across the UV square")->check(CLI::PositiveNumber);
+  c->add_option("--background", f->background, "Background, R,G,B in 0..1 (linear for look correct)");
+  c->add_flag("--no-fins", f->noFins, "Draw no fins");
+  c->add_flag("--no-shells", f->noShells, "Draw no shells");
+  c->add_flag("--validate", f->validate, "Run with the drivers' validation; messages go to stderr and into the stats");
+}
+
+}  // namespace
+
+void AddRenderCommand(CLI::App& app, Command* run) {
+  auto flags = std::make_shared<RenderFlags>();
+  CLI::App* c = app.add_subcommand("render", "Render a model, or the built-in animal, to a PNG");
+  AddFlags(c, flags.get());
+  c->callback([flags, run] {
+    *run = [flags] {
+      Result<Done> done = Render(*flags);
+      return done ? 0 : Fail(done.error());
+    };
+  });
+}
+
+}  // namespace app

@@ -1,0 +1,110 @@
+#include "render_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+namespace app {
+namespace {
+
+constexpr double kTurnDegrees = 0.5;
+
+double Milliseconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double, std::milli>(d).count(); }
+
+fur::Result<double> TimeFrame(fur::Renderer& renderer, const fur::Camera& camera, const RenderJob& job) {
+  const auto start = std::chrono::steady_clock::now();
+  renderer.Draw(camera, job.placements);
+  if (fur::Result<fur::Done> done = renderer.Finish(); !done) return done.error();
+  return Milliseconds(std::chrono::steady_clock::now() - start);
+}
+
+fur::Result<rhi::Ref<rhi::IDevice>> MakeDevice(const BackendEntry& backend, const RenderJob& job, MessageCollector* messages) {
+  rhi::Ref<rhi::IDevice> device;
+  const rhi::DeviceDesc desc{.apiValidation = job.validate, .syncValidation = job.validate, .adapter = job.adapter.c_str(),
+                             .sink = messages};
+  const rhi::Status status = backend.createDevice(desc, &device);
+  if (status == rhi::Status::Ok) return device;
+  const std::string why = messages->Lines().empty() ? rhi::ToString(status) : messages->Last();
+  return fur::Error{fur::ErrorCode::NoDevice, fmt::format("no {} device: {}", backend.name, why)};
+}
+
+fur::Result<fur::Done> TimeFrames(fur::Renderer& renderer, const RenderJob& job, RenderOutcome* out) {
+  for (uint32_t i = 1; i <= job.repeat; ++i) {
+    fur::Result<double> ms = TimeFrame(renderer, fur::TurnCamera(job.camera, kTurnDegrees * i), job);
+    if (!ms) return ms.error();
+    out->frameMs.push_back(*ms);
+  }
+  return fur::Done{};
+}
+
+// Adds what the driver said to an error that only has a status.
+fur::Error Explain(fur::Error error, const MessageCollector& messages) {
+  if (!messages.Lines().empty()) error.message += " (" + messages.Last() + ")";
+  return error;
+}
+
+fur::Result<RenderOutcome> RunOnDevice(rhi::IDevice& device, const fur::Model& model, const RenderJob& job) {
+  RenderOutcome out;
+  out.caps = device.GetCaps();
+  fur::Result<std::unique_ptr<fur::Renderer>> renderer = fur::MakeRenderer(device, model, job.settings);
+  if (!renderer) return renderer.error();
+  device.GetStats(true);
+  fur::Result<double> first = TimeFrame(**renderer, job.camera, job);
+  if (!first) return first.error();
+  out.firstFrameMs = *first;
+  out.rhiStats = device.GetStats(true);
+  fur::Result<fur::Image> image = (*renderer)->ReadImage();
+  if (!image) return image.error();
+  out.image = std::move(*image);
+  if (fur::Result<fur::Done> timed = TimeFrames(**renderer, job, &out); !timed) return timed.error();
+  fur::Result<fur::FrameCounts> counts = (*renderer)->Count(job.camera, job.placements);
+  if (!counts) return counts.error();
+  out.counts = *counts;
+  return out;
+}
+
+}  // namespace
+
+fur::Result<RenderOutcome> RunRenderJob(const BackendEntry& backend, const fur::Model& model, const RenderJob& job) {
+  MessageCollector messages;
+  fur::Result<RenderOutcome> out = RenderOutcome{};
+  {
+    fur::Result<rhi::Ref<rhi::IDevice>> device = MakeDevice(backend, job, &messages);
+    if (!device) return device.error();
+    out = RunOnDevice(**device, model, job);
+  }  // the device dies here: leaks that its validation reports are among the messages
+  if (!out) return Explain(out.error(), messages);
+  out->backend = backend.name;
+  out->messages = messages.Lines();
+  return out;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const size_t n = values.size();
+  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+ImageDifference CompareImages(const fur::Image& a, const fur::Image& b) {
+  ImageDifference d;
+  d.pixels = uint64_t(a.width) * a.height;
+  uint64_t sum = 0;
+  for (uint64_t p = 0; p < d.pixels; ++p) {
+    int largest = 0;
+    for (uint64_t c = 0; c < 3; ++c) {
+      const int delta = std::abs(int(a.pixels[p * 4 + c]) - int(b.pixels[p * 4 + c]));
+      largest = std::max(largest, delta);
+      sum += uint64_t(delta);
+    }
+    d.differing += largest > 0;
+    d.largest = std::max(d.largest, largest);
+  }
+  d.mean = d.pixels ? double(sum) / double(d.pixels * 3) : 0;
+  return d;
+}
+
+}  // namespace app

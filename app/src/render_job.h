@@ -1,0 +1,45 @@
+// One rendering of a scene on one backend, timed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "backends.h"
+#include "fur/renderer.h"
+
+namespace app {
+
+struct RenderJob {
+  fur::RenderSettings settings;
+  fur::Camera camera;
+  std::vector<glm::dmat4> placements;
+  uint32_t repeat = 1;     // timed frames after the first
+  bool validate = false;   // API and synchronization validation
+  std::string adapter;
+};
+
+struct RenderOutcome {
+  std::string backend;
+  rhi::Caps caps;
+  fur::Image image;               // the first frame, at the job's camera
+  double firstFrameMs = 0;        // with the drivers' shader compilation
+  std::vector<double> frameMs;    // docs/accuracy.md: first call to finished GPU, the camera turning 0.5 degrees a frame
+  fur::FrameCounts counts;
+  rhi::Stats rhiStats;            // of the first frame
+  std::vector<std::string> messages;
+};
+
+fur::Result<RenderOutcome> RunRenderJob(const BackendEntry& backend, const fur::Model& model, const RenderJob& job);
+
+double Median(std::vector<double> values);  // 0 for none
+
+// How far two pictures of one size are apart.
+struct ImageDifference {
+  uint64_t pixels = 0, differing = 0;
+  int largest = 0;   // of a channel, 0..255
+  double mean = 0;   // of all channels, 0..255
+  double EqualShare() const { return pixels ? double(pixels - differing) / double(pixels) : 1; }
+};
+ImageDifference CompareImages(const fur::Image& a, const fur::Image& b);
+
+}  // namespace app

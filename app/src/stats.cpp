@@ -1,0 +1,43 @@
+#include "stats.h"
+
+namespace app {
+
+const char* ToString(fur::Technique) { return "seed"; }
+const char* ToString(fur::Look look) { return look == fur::Look::Seed ? "seed" : "correct"; }
+const char* ToString(fur::Semantics semantics) { return semantics == fur::Semantics::Sheet ? "sheet" : "volume"; }
+
+nlohmann::ordered_json StatsJson(const RenderOutcome& out, const RenderJob& job) {
+  const fur::FrameCounts& c = out.counts;
+  nlohmann::ordered_json j;
+  j["backend"] = out.backend;
+  j["adapter"] = out.caps.adapter.data();
+  j["driver"] = out.caps.driver.data();
+  j["technique"] = ToString(job.settings.technique);
+  j["look"] = ToString(job.settings.look);
+  j["semantics"] = ToString(job.settings.semantics);
+  j["width"] = job.settings.width;
+  j["height"] = job.settings.height;
+  j["samples"] = job.settings.samples;
+  j["animals"] = job.placements.size();
+  j["first_frame_ms"] = out.firstFrameMs;
+  j["frame_ms"] = out.frameMs;
+  j["frame_ms_median"] = Median(out.frameMs);
+  j["draws"] = c.draws;
+  j["triangles_submitted"] = c.triangles;
+  j["edges_submitted"] = c.edges;
+  j["fragments_shaded"] = c.baseFragments + c.finFragments + c.shellFragments;
+  j["fragments"] = {{"base", c.baseFragments}, {"fins", c.finFragments}, {"shells", c.shellFragments}};
+  j["skipped"] = {{"animals", c.skippedAnimals}, {"edges", c.skippedEdges}, {"shells", c.skippedShells}};
+  const rhi::Stats& r = out.rhiStats;
+  j["rhi"] = {{"draws", r.draws}, {"pipeline_misses", r.pipelineMisses}, {"descriptor_misses", r.descriptorMisses},
+              {"ring_bytes", r.ringBytes}, {"passes", r.passes}, {"pass_breaks", r.passBreaks}, {"barriers", r.barriers},
+              {"redundant_sets", r.redundantSets}};
+  j["messages"] = out.messages;
+  return j;
+}
+
+nlohmann::ordered_json DifferenceJson(const ImageDifference& d) {
+  return {{"pixels", d.pixels}, {"differing", d.differing}, {"equal_share", d.EqualShare()}, {"largest", d.largest}, {"mean", d.mean}};
+}
+
+}  // namespace app

@@ -1,0 +1,41 @@
+// A model on the GPU, for one look.
+#pragma once
+
+#include <vector>
+
+#include "fur/model.h"
+#include "fur/renderer.h"
+#include "rhi/rhi.h"
+
+namespace fur {
+
+struct GpuGeometry {  // of one primitive
+  rhi::Ref<rhi::IBuffer> vertices, indices, finIndices;  // finIndices: LineListAdj, null without edges
+  uint32_t indexCount = 0, finIndexCount = 0;
+};
+
+struct GpuMaterial {
+  rhi::Ref<rhi::IShaderResourceView> baseColor, normal, specular;  // never null
+  rhi::Ref<rhi::IShaderResourceView> lengthMap, furVolume;         // null on bald materials
+  rhi::Ref<rhi::ISamplerState> surfaceSampler;
+  rhi::Ref<rhi::IBuffer> constants;  // MaterialConstants
+  uint32_t shells = 0;               // 0: bald
+  bool doubleSided = false;
+};
+
+struct GpuPart {
+  uint32_t primitive = 0, material = 0;
+  glm::dmat4 transform{1};
+  bool mirrored = false;  // the transform turns the winding around
+};
+
+struct GpuModel {
+  std::vector<GpuGeometry> geometry;
+  std::vector<GpuMaterial> materials;
+  std::vector<GpuPart> parts;
+  int32_t firstFur = -1;  // first furred material, or -1
+};
+
+Result<GpuModel> UploadModel(rhi::IDevice&, const Model&, const RenderSettings&);
+
+}  // namespace fur

@@ -1,0 +1,154 @@
+#include "fur/renderer.h"
+
+#include <array>
+
+#include "fur_shaders/fur_shaders.h"
+#include "technique.h"
+
+namespace fur {
+namespace {
+
+Error RenderError(rhi::Status status, const char* what) {
+  const ErrorCode code = status == rhi::Status::Unsupported ? ErrorCode::NoDevice : ErrorCode::RenderFailed;
+  return {code, std::string(what) + ": " + rhi::ToString(status)};
+}
+
+// A colour and a depth target, and the single-sampled texture that is read.
+struct Targets {
+  rhi::Ref<rhi::ITexture> color, depth, resolved;  // resolved: color itself at one sample
+  rhi::Ref<rhi::IRenderTargetView> colorView;
+  rhi::Ref<rhi::IDepthStencilView> depthView;
+  rhi::Format format = rhi::Format::Unknown;
+};
+
+rhi::Status MakeTargets(rhi::IDevice& device, const RenderSettings& s, uint32_t samples, Targets* t) {
+  using namespace rhi;
+  t->format = s.look == Look::Correct ? Format::RGBA8_UNorm_sRGB : Format::RGBA8_UNorm;
+  TextureDesc color{.dim = samples > 1 ? TextureDim::Tex2DMS : TextureDim::Tex2D, .width = s.width, .height = s.height,
+                    .sampleCount = samples, .format = t->format, .bind = Bind::RenderTarget, .name = "colour"};
+  TextureDesc depth = color;
+  depth.format = Format::D32_Float;
+  depth.bind = Bind::DepthStencil;
+  depth.name = "depth";
+  Status status = device.CreateTexture(color, nullptr, &t->color);
+  if (status == Status::Ok) status = device.CreateTexture(depth, nullptr, &t->depth);
+  if (status == Status::Ok) status = device.CreateRenderTargetView(t->color.get(), nullptr, &t->colorView);
+  if (status == Status::Ok) status = device.CreateDepthStencilView(t->depth.get(), nullptr, &t->depthView);
+  if (status != Status::Ok) return status;
+  t->resolved = t->color;
+  if (samples == 1) return Status::Ok;
+  color.dim = TextureDim::Tex2D;
+  color.sampleCount = 1;
+  color.name = "resolved";
+  return device.CreateTexture(color, nullptr, &t->resolved);
+}
+
+class RendererImpl final : public Renderer {
+ public:
+  RendererImpl(rhi::IDevice& device, const RenderSettings& settings) : device_(device), settings_(settings) {}
+
+  Result<Done> Init(const Model& model) {
+    const rhi::Status status = MakeTargets(device_, settings_, settings_.samples, &targets_);
+    if (status != rhi::Status::Ok) return RenderError(status, "cannot create the targets");
+    Result<GpuModel> uploaded = UploadModel(device_, model, settings_);
+    if (!uploaded) return uploaded.error();
+    model_ = std::move(*uploaded);
+    Result<std::unique_ptr<ITechnique>> technique = MakeSeedTechnique(device_, settings_);
+    if (!technique) return technique.error();
+    technique_ = std::move(*technique);
+    return Done{};
+  }
+
+  void Draw(const Camera& camera, std::span<const glm::dmat4> placements) override {
+    FrameCounts counts;
+    FrameInputs in = Inputs(camera, placements, &counts);
+    DrawInto(targets_, in);
+    if (settings_.samples > 1)
+      Context().ResolveSubresource(targets_.resolved.get(), 0, targets_.color.get(), 0, targets_.format);
+    Context().EndFrame();
+  }
+
+  Result<Done> Finish() override {
+    const rhi::Status status = device_.WaitIdle();
+    if (status != rhi::Status::Ok) return RenderError(status, "the driver failed while drawing");
+    return Done{};
+  }
+
+  Result<Image> ReadImage() override {
+    Image image{"frame", settings_.width, settings_.height, {}};
+    image.pixels.resize(size_t(image.width) * image.height * 4);
+    const rhi::Status status = device_.ReadBack(targets_.resolved.get(), 0, image.pixels.data(), image.pixels.size());
+    if (status != rhi::Status::Ok) return RenderError(status, "cannot read the frame back");
+    for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
+    return image;
+  }
+
+  Result<FrameCounts> Count(const Camera& camera, std::span<const glm::dmat4> placements) override {
+    FrameCounts counts;
+    Targets targets;
+    std::array<rhi::Ref<rhi::IQuery>, kPassCount> queries;
+    rhi::Ref<rhi::IShader> counting;
+    rhi::Status status = MakeTargets(device_, settings_, 1, &targets);
+    if (status == rhi::Status::Ok) status = device_.CreateShader(shaders::count_PSMain, &counting);
+    for (auto& q : queries)
+      if (status == rhi::Status::Ok) status = device_.CreateQuery({rhi::QueryType::Occlusion}, &q);
+    if (status != rhi::Status::Ok) return RenderError(status, "cannot prepare the counting pass");
+
+    FrameInputs in = Inputs(camera, placements, &counts);
+    in.countingShader = counting.get();
+    in.passQueries = queries;
+    DrawInto(targets, in);
+    Context().EndFrame();
+    if (Result<Done> finished = Finish(); !finished) return finished.error();
+    counts.baseFragments = ReadCount(queries[size_t(Pass::Base)].get());
+    if (settings_.drawFins && model_.firstFur >= 0) counts.finFragments = ReadCount(queries[size_t(Pass::Fins)].get());
+    if (settings_.drawShells) counts.shellFragments = ReadCount(queries[size_t(Pass::Shells)].get());
+    return counts;
+  }
+
+ private:
+  rhi::IContext& Context() { return *device_.ImmediateContext(); }
+
+  FrameInputs Inputs(const Camera& camera, std::span<const glm::dmat4> placements, FrameCounts* counts) const {
+    FrameInputs in;
+    in.eye = camera.eye;
+    in.worldToClip = ProjectionMatrix(camera, double(settings_.width) / settings_.height) * ViewMatrix(camera);
+    in.light = settings_.light;
+    in.placements = placements;
+    in.counts = counts;
+    return in;
+  }
+
+  void DrawInto(const Targets& targets, const FrameInputs& in) {
+    rhi::IContext& context = Context();
+    rhi::IRenderTargetView* const views[] = {targets.colorView.get()};
+    context.OMSetRenderTargets(1, views, targets.depthView.get());
+    const glm::vec4 background(settings_.background, 1);
+    context.ClearRenderTargetView(targets.colorView.get(), &background.x);
+    context.ClearDepthStencilView(targets.depthView.get(), true, 1, false, 0);
+    const rhi::Viewport viewport{.width = float(settings_.width), .height = float(settings_.height)};
+    context.RSSetViewports(1, &viewport);
+    technique_->Draw(context, model_, in);
+  }
+
+  uint64_t ReadCount(rhi::IQuery* query) {
+    uint64_t samples = 0;
+    return Context().GetData(query, &samples, sizeof samples, true) == rhi::Status::Ok ? samples : 0;
+  }
+
+  rhi::IDevice& device_;
+  RenderSettings settings_;
+  Targets targets_;
+  GpuModel model_;
+  std::unique_ptr<ITechnique> technique_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> MakeRenderer(rhi::IDevice& device, const Model& model, const RenderSettings& settings) {
+  auto renderer = std::make_unique<RendererImpl>(device, settings);
+  if (Result<Done> made = renderer->Init(model); !made) return made.error();
+  return std::unique_ptr<Renderer>(std::move(renderer));
+}
+
+}  // namespace fur

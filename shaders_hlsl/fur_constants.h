@@ -1,0 +1,43 @@
+// The constant buffers, once for C++ and HLSL. HLSL packs by 16 bytes; everything here is a float4 or a matrix, so that
+// both languages agree (fur/src/gpu_constants.h checks the offsets).
+//
+// Registers by update frequency: b0 frame, b1 material, b2 object (one part of one animal), b3 draw.
+// Matrices are uploaded as GLM keeps them and read by columns: M[0] * x + M[1] * y + M[2] * z + M[3] * w.
+#ifndef FUR_CONSTANTS_H
+#define FUR_CONSTANTS_H
+
+#ifdef __cplusplus
+#define FUR_CBUFFER(name, slot) struct alignas(16) name
+#define FUR_FLOAT4 glm::vec4
+#define FUR_MATRIX glm::mat4
+#else
+#define FUR_CBUFFER(name, slot) cbuffer name : register(slot)
+#define FUR_FLOAT4 float4
+#define FUR_MATRIX row_major float4x4
+#endif
+
+FUR_CBUFFER(FrameConstants, b0) {
+  FUR_FLOAT4 eyeWorld;        // xyz
+  FUR_FLOAT4 lightDirection;  // xyz: the way the light travels, unit
+  FUR_FLOAT4 lightDiffuse;    // rgb
+  FUR_FLOAT4 lightAmbient;    // rgb
+  FUR_FLOAT4 lightSpecular;   // rgb
+};
+
+FUR_CBUFFER(MaterialConstants, b1) {
+  FUR_FLOAT4 baseColor;     // rgb factor
+  FUR_FLOAT4 specular;      // rgb factor, w: Blinn-Phong power
+  FUR_FLOAT4 surface;       // x: normal scale, y: 1 with a normal map, z: 1 with a specular map
+  FUR_FLOAT4 furShape;      // x: length (object units), y: layer uv scale, z: slices N0, w: shells N
+  FUR_FLOAT4 furLight;      // x: light left at the root, y: specular power, z: specular scale, w: coverage lost at the tip
+  FUR_FLOAT4 furSemantics;  // x: least cosine of the volume law
+};
+
+FUR_CBUFFER(ObjectConstants, b2) {
+  FUR_MATRIX objectToClip;
+  FUR_MATRIX objectToEye;     // world axes, origin at the eye: keeps precision far from the world's origin
+  FUR_MATRIX normalToWorld;   // inverse transpose of the upper 3x3
+  FUR_FLOAT4 eyeObject;       // xyz: the eye in object space
+};
+
+#endif

@@ -1,0 +1,19 @@
+// Textures of a furred material and the reading of its volume.
+#ifndef FUR_VOLUME_HLSLI
+#define FUR_VOLUME_HLSLI
+#include "fur_constants.h"
+#include "math.hlsli"
+
+Texture2D baseColorMap : register(t0);
+Texture2D lengthMap : register(t3);
+Texture2DArray furVolume : register(t4);  // rgb: packed tangent, a: coverage
+SamplerState surfaceSampler : register(s0);
+SamplerState volumeSampler : register(s1);
+
+// Unpacks a strand direction in tangent space. |2 rgb - 1| < 1/64 means "no direction": straight up.
+float3 UnpackStrand(float3 packed) {
+  float3 t = packed * 2.0 - 1.0;
+  return Dot3(t, t) < 1.0 / 4096.0 ? float3(0, 0, 1) : Unit3(t);
+}
+
+#endif

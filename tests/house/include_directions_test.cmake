@@ -1,0 +1,42 @@
+# cmake -D SOURCE=<root> -D GENERATOR=<generator> -D WORK=<folder> -P include_directions_test.cmake
+# Builds a small project that uses fur_check_includes: clean, then with a forbidden include (the build must fail and
+# name file and line), then repaired, then with the include in a new file that no list names.
+file(REMOVE_RECURSE "${WORK}")
+file(WRITE "${WORK}/rhi/src/types.cpp" "#include <vector>\n")
+file(WRITE "${WORK}/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)
+project(planted LANGUAGES NONE)
+include(\"${SOURCE}/cmake/IncludeDirections.cmake\")
+add_subdirectory(rhi)
+")
+file(WRITE "${WORK}/rhi/CMakeLists.txt" "add_custom_target(rhi ALL)
+fur_check_includes(rhi FORBID rhi_vulkan volk)
+")
+
+function(build expected_output)
+  execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" RESULT_VARIABLE status OUTPUT_VARIABLE output
+                  ERROR_VARIABLE output)
+  if(expected_output STREQUAL "" AND NOT status EQUAL 0)
+    message(FATAL_ERROR "a clean build failed:\n${output}")
+  elseif(NOT expected_output STREQUAL "" AND status EQUAL 0)
+    message(FATAL_ERROR "the build passed; expected: ${expected_output}\n${output}")
+  endif()
+  string(FIND "${output}" "${expected_output}" found)
+  if(found EQUAL -1)
+    message(FATAL_ERROR "expected: ${expected_output}\ngot:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+execute_process(COMMAND "${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${WORK}" -B "${WORK}/build" OUTPUT_QUIET
+                COMMAND_ERROR_IS_FATAL ANY)
+build("")
+build("")
+if(output MATCHES "Checking the include directions")
+  message(FATAL_ERROR "checked again although nothing changed:\n${output}")
+endif()
+file(WRITE "${WORK}/rhi/src/types.cpp" "#include <vector>\n#include \"rhi_vulkan/device.h\"\n")
+build("rhi/src/types.cpp:2: error: rhi must not include rhi_vulkan (docs/architecture.md)")
+file(WRITE "${WORK}/rhi/src/types.cpp" "#include <vector>\n")
+build("")
+file(WRITE "${WORK}/rhi/include/rhi/new.h" "# include <volk.h>\n")
+build("rhi/include/rhi/new.h:1: error: rhi must not include volk (docs/architecture.md)")

@@ -1,0 +1,62 @@
+#include "includer.h"
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "error.h"
+
+namespace shaderc {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr size_t kMaxIncludeDepth = 64;  // a file that includes itself without a guard
+
+void CheckSource(const std::string& file, const std::string& text) {
+  static const std::regex pragmaOnce(R"(^\s*#\s*pragma\s+once\b)");
+  std::istringstream in(text);
+  std::string line;
+  for (uint32_t n = 1; std::getline(in, line); ++n)
+    if (std::regex_search(line, pragmaOnce))
+      throw CompileError({file, n}, "#pragma once has no effect here; use an include guard");
+}
+
+}  // namespace
+
+std::string ReadSource(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) throw CompileError({path.string(), 0}, "cannot read this file, or it is empty");
+  CheckSource(path.string(), text.str());
+  return text.str();
+}
+
+std::optional<fs::path> Includer::Find(const std::string& header, const std::string& includer) const {
+  std::vector<fs::path> candidates{fs::path(includer).parent_path() / header};
+  for (const std::string& dir : dirs_) candidates.push_back(fs::path(dir) / header);
+  for (const fs::path& p : candidates)
+    if (fs::is_regular_file(p)) return p.lexically_normal();
+  return std::nullopt;
+}
+
+Includer::IncludeResult* Includer::includeLocal(const char* header, const char* includer, size_t depth) {
+  if (depth > kMaxIncludeDepth) throw CompileError({includer, 0}, "#include is nested too deep; is a guard missing?");
+  const std::optional<fs::path> path = Find(header, includer);
+  if (!path) return nullptr;  // glslang reports the place
+  auto* text = new std::string(ReadSource(*path));
+  files_.insert(path->string());
+  return new IncludeResult(path->string(), text->data(), text->size(), text);
+}
+
+// Refused instead of ignored, so that "x" and <x> cannot come to mean different files.
+Includer::IncludeResult* Includer::includeSystem(const char* header, const char* includer, size_t) {
+  throw CompileError({includer, 0}, "#include <" + std::string(header) + "> is not supported; write \"" + header + "\"");
+}
+
+void Includer::releaseInclude(IncludeResult* result) {
+  if (!result) return;
+  delete static_cast<std::string*>(result->userData);
+  delete result;
+}
+
+}  // namespace shaderc

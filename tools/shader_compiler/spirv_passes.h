@@ -1,0 +1,32 @@
+// What is done to the SPIR-V between glslang and the backends.
+#pragma once
+
+#include "options.h"
+#include "spirv_module.h"
+
+namespace shaderc {
+
+// SPIRV-Tools' validator for Vulkan 1.1; throws with the HLSL line. Before legalisation some rules are relaxed.
+void Validate(const Module&, bool legalised);
+
+// Inlines, legalises (textures and buffers passed to functions) and cleans up.
+Module Optimize(const Module&);
+
+// A typed UAV that is only written gets no format, so that it may be bound as any; one that is read must be of one
+// 32-bit component, which is Direct3D's rule too.
+void RelaxImageFormats(Module&);
+
+// Direct3D's SV_VertexID and SV_InstanceID leave the base out, SPIR-V's VertexIndex and InstanceIndex include it.
+// Turns each load of `index` into index - base. False when the shader does not read it.
+bool SubtractBase(Module&, spv::BuiltIn index, spv::BuiltIn base);
+
+// The descriptor sets of rhi/shader.h, from the bindings. Throws where the HLSL names a space.
+void AssignSets(Module&, rhi::Stage);
+
+// Line information and source text; names stay.
+void StripLines(Module&);
+
+// The decorations and extensions that carry the HLSL semantics.
+void StripSemantics(Module&);
+
+}  // namespace shaderc
