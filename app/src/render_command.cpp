@@ -23,6 +23,7 @@ using fur::Result;
 constexpr uint32_t kMaxSide = 16384;
 constexpr uint32_t kMaxShells = 512;
 constexpr uint32_t kMaxAnimals = 10000;
+const glm::dvec3 kStudioGrey{0.30, 0.32, 0.34};  // linear; an outline of fur shows on it, light and dark
 
 struct RenderFlags {
   std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "seed", look = "correct", semantics,
@@ -59,6 +60,7 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   s.shells = f.shells;
   s.drawFins = !f.noFins;
   s.drawShells = !f.noShells;
+  s.background = s.look == fur::Look::Correct ? kStudioGrey : glm::dvec3(0);
   if (f.background.empty()) return s;
   Result<glm::dvec3> background = ParseVector(f.background, "--background");
   if (!background) return background.error();
@@ -81,24 +83,28 @@ Result<fur::Model> LoadModel(const RenderFlags& f) {
   return fur::LoadGltf(f.model, {.furFile = f.furFile, .furOverrides = FurOverrides(f), .furMaterial = f.furMaterial});
 }
 
-// The box with the fur around it.
-fur::Bounds FurredBounds(const fur::Model& model) {
-  fur::Bounds bounds = fur::ComputeBounds(model);
-  double reach = 0;
-  for (const fur::Part& part : model.parts) {
-    const fur::Material& m = model.materials[model.primitives[part.primitive].material];
-    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(part.transform))));
-    if (m.fur) reach = std::max(reach, m.fur->params.length * scale);
-  }
-  bounds.min -= reach;
-  bounds.max += reach;
-  return bounds;
+// World positions of every vertex of every animal, with its fur: what a framing camera must show. A large field is
+// represented by each hundredth vertex.
+std::vector<glm::dvec3> FurredPoints(const fur::Model& model, const std::vector<glm::dmat4>& placements) {
+  std::vector<glm::dvec3> points;
+  const size_t step = placements.size() > 4 ? 100 : 1;
+  for (const glm::dmat4& placement : placements)
+    for (const fur::Part& part : model.parts) {
+      const fur::Primitive& primitive = model.primitives[part.primitive];
+      const fur::Material& m = model.materials[primitive.material];
+      const double length = m.fur ? m.fur->params.length : 0;
+      const glm::dmat4 toWorld = placement * part.transform;
+      for (size_t i = 0; i < primitive.vertices.size(); i += step) {
+        const fur::Vertex& v = primitive.vertices[i];
+        points.push_back(toWorld * glm::dvec4(glm::dvec3(v.position) + glm::dvec3(v.normal) * length, 1));
+      }
+    }
+  return points;
 }
 
-Result<fur::Camera> MakeCamera(const RenderFlags& f, const fur::Bounds& bounds, const RenderJob& job) {
+Result<fur::Camera> MakeCamera(const RenderFlags& f, const fur::Model& model, double scale, const RenderJob& job) {
   const double aspect = double(job.settings.width) / job.settings.height;
   const bool placed = !f.eye.empty() || !f.target.empty();
-  const double scale = fur::SceneScale(bounds);
   fur::Camera camera;
   if (placed) {
     camera.fovY = f.fov > 0 ? f.fov : 65;
@@ -106,7 +112,7 @@ Result<fur::Camera> MakeCamera(const RenderFlags& f, const fur::Bounds& bounds, 
     camera.zNear *= scale;
     camera.zFar *= scale;
   } else {
-    camera = fur::FrameBounds(bounds, job.placements, f.fov > 0 ? f.fov : 40, aspect);
+    camera = fur::FramePoints(FurredPoints(model, job.placements), f.fov > 0 ? f.fov : 40, aspect, scale);
   }
   for (const auto& [flag, text, value] : {std::tuple{"--eye", &f.eye, &camera.eye}, {"--target", &f.target, &camera.target}}) {
     if (text->empty()) continue;
@@ -198,9 +204,9 @@ Result<RenderJob> PrepareJob(const RenderFlags& f, const fur::Model& model) {
   Result<fur::RenderSettings> settings = MakeSettings(f);
   if (!settings) return settings.error();
   job.settings = *settings;
-  const fur::Bounds bounds = FurredBounds(model);
-  job.placements = fur::PlaceAnimals(f.count, fur::SceneScale(bounds));
-  Result<fur::Camera> camera = MakeCamera(f, bounds, job);
+  const double scale = fur::SceneScale(fur::ComputeBounds(model));
+  job.placements = fur::PlaceAnimals(f.count, scale);
+  Result<fur::Camera> camera = MakeCamera(f, model, scale, job);
   if (!camera) return camera.error();
   job.camera = *camera;
   job.repeat = f.repeat;
@@ -259,7 +265,7 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--fur-material", f->furMaterial, "Grow fur on the material of this name only");
   c->add_option("--fur-length", f->furLength, "Fur length in the model's units")->check(CLI::PositiveNumber);
   c->add_option("--uv-scale", f->uvScale, "Tiles of the fur volume across the UV square")->check(CLI::PositiveNumber);
-  c->add_option("--background", f->background, "Background, R,G,B in 0..1 (linear for look correct)");
+  c->add_option("--background", f->background, "Background, R,G,B in 0..1: linear, default a grey, for look correct; raw, default black, for look seed");
   c->add_flag("--no-fins", f->noFins, "Draw no fins");
   c->add_flag("--no-shells", f->noShells, "Draw no shells");
   c->add_flag("--validate", f->validate, "Run with the drivers' validation; messages go to stderr and into the stats");

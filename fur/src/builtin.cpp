@@ -15,17 +15,14 @@ constexpr uint32_t kTextureSize = 512;
 constexpr double kFurLength = 0.075;  // 3.7 % of the body's length
 constexpr double kTileWidth = 0.24;   // on the skin: a strand of two texels is 1/530 of the body's length thick
 
-StrandParams Coat() {
-  return {.size = 128, .layers = 16, .underStrands = 1500, .overStrands = 520, .underLength = 0.62, .overLength = 0.92,
-          .underRadius = 0.80, .overRadius = 1.15, .taper = 0.75, .bend = 0.07, .spread = 0.6, .seed = 7};
-}
+StrandParams Coat() { return {.seed = 7}; }
 
 // Texture coordinates of a ball: the hemisphere around `axis`, seen from the front, fills the unit square's disc.
 void FrontUvs(const Ball& ball, const glm::dvec3& axis, std::vector<Vertex>* vertices) {
   const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), axis)), up = glm::cross(axis, right);
   for (Vertex& v : *vertices) {
     const glm::dvec3 q = (glm::dvec3(v.position) - ball.center) / ball.radii;
-    v.uv = glm::vec2(0.5 + 0.5 * glm::dot(right, q), 0.5 - 0.5 * glm::dot(up, q));
+    v.uv = glm::vec2(0.5 + 0.499 * glm::dot(right, q), 0.5 - 0.499 * glm::dot(up, q));
   }
 }
 

@@ -302,7 +302,8 @@ Atlas MakeAtlas(const Mesh& mesh, uint32_t size) {
     for (size_t v = 0; v < flats[i].source.size(); ++v) {
       const uint32_t s = flats[i].source[v];
       const glm::vec2 uv(origins[i] + flats[i].uv[v] * atlas.uvPerUnit);
-      atlas.vertices.push_back({.position = glm::vec3(mesh.positions[s]), .normal = glm::vec3(mesh.normals[s]), .uv = uv});
+      atlas.vertices.push_back(
+          {.position = glm::vec3(mesh.positions[s]), .normal = glm::vec3(mesh.normals[s]), .uv = uv});
     }
     for (uint32_t index : flats[i].indices) atlas.indices.push_back(base + index);
   }
@@ -335,9 +336,9 @@ void FillTangents(std::vector<Vertex>* vertices, const std::vector<uint32_t>& in
 
 dvec3 CombDirection(const dvec3& p, const dvec3& normal) {
   const auto d = RegionDistances(p);
-  const std::array<dvec3, kRegionCount> along = {dvec3(0, -0.35, -1), dvec3(0, 0.1, -1), dvec3(0, 1, -0.2),
-                                                 dvec3(0, -1, -0.1),  dvec3(0, -1, -0.15),
-                                                 dvec3(0, p.z < -0.9 ? 1 : -0.1, p.z < -1.0 ? 0.05 : -1)};
+  const std::array<dvec3, kRegionCount> along = {
+      dvec3(0, -0.35, -1), dvec3(0, 0.1, -1),   dvec3(0, 1, -0.2),
+      dvec3(0, -1, -0.1),  dvec3(0, -1, -0.15), dvec3(0, p.z < -0.9 ? 1 : -0.1, p.z < -1.0 ? 0.05 : -1)};
   dvec3 sum{0};
   for (uint32_t r = 0; r < kRegionCount; ++r) sum += along[r] * std::exp(-18 * std::max(0.0, d[r]));
   sum /= glm::length(sum);

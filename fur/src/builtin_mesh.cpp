@@ -17,7 +17,7 @@ constexpr uint32_t kNone = ~0u;
 // Grid lines along one axis; a fine stretch from `fineFrom` upwards gives the head more triangles.
 std::vector<double> GridLines(double from, double to, double fineFrom, double coarse, double fine) {
   std::vector<double> lines;
-  for (double x = from; x < to;) {
+  for (double x = from; x < to - fine / 2;) {
     lines.push_back(x);
     const double t = std::clamp((x - fineFrom) / 0.2 + 1, 0.0, 1.0);
     x += coarse + (fine - coarse) * t;
@@ -90,7 +90,9 @@ class SurfaceNets {
   // The four cells around a grid edge, in the order that turns counter-clockwise seen from its far end.
   void ConnectAcross(int axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    ForGrid(ivec3(1), size_ - 1, [&](ivec3 a) {
+    ivec3 from(1);
+    from[axis] = 0;
+    ForGrid(from, size_ - 1, [&](ivec3 a) {
       ivec3 b = a;
       b[axis] += 1;
       const bool insideA = field_[At(a)] < 0, insideB = field_[At(b)] < 0;
@@ -145,12 +147,12 @@ void Relax(Mesh* mesh, int rounds) {
 
 Mesh PolygonizeSkin() {
   const Box box = SkinBox();
-  constexpr double kCoarse = 0.046, kFine = 0.033;
-  SurfaceNets nets(GridLines(box.min.x, box.max.x, 1e9, 0.036, 0.036),
+  constexpr double kCoarse = 0.048, kFine = 0.033;
+  SurfaceNets nets(GridLines(box.min.x, box.max.x, 1e9, 0.035, 0.035),
                    GridLines(box.min.y, box.max.y, 0.90, kCoarse, kFine),
                    GridLines(box.min.z, box.max.z, 0.45, kCoarse, kFine));
   Mesh mesh = nets.Run();
-  Relax(&mesh, 6);
+  Relax(&mesh, 8);
   for (dvec3& p : mesh.positions) {
     p = Project(p, 2);
     // The precision of the final vertices decides what is welded: round once, here.

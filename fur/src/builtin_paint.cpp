@@ -42,8 +42,12 @@ struct Place {
 Place Locate(const dvec3& p, const dvec3& n) {
   const auto d = RegionDistances(p);
   const auto near = [&](Region r, double width) { return Step(width, 0, d[r]); };
-  return {p, n, near(kHead, 0.08), near(kEar, 0.03) * Step(1.17, 1.23, p.y),
-          std::max(near(kFrontLeg, 0.06), near(kHindLeg, 0.06)) * Step(0.50, 0.36, p.y), near(kTail, 0.05)};
+  return {p,
+          n,
+          near(kHead, 0.08),
+          near(kEar, 0.03) * Step(1.17, 1.23, p.y),
+          std::max(near(kFrontLeg, 0.06), near(kHindLeg, 0.06)) * Step(0.50, 0.36, p.y),
+          near(kTail, 0.05)};
 }
 
 double InsideEar(const Place& at) { return at.ear * Step(0.15, 0.6, at.n.z); }
@@ -63,7 +67,8 @@ double Markings(const Place& at) {
   const double t = TailParameter(at.p);
   const double rings = at.tail * Step(0.0, 0.6, std::sin(t * 44 + Noise(at.p * 8.0) * 0.8)) * Step(0.08, 0.2, t);
   const double brow = at.head * (1 - at.ear) * Step(1.12, 1.19, at.p.y) * Step(-0.1, 0.25, at.n.y + at.n.z * 0.4) *
-                      Step(0.1, 0.7, std::cos(at.p.x * 62 + 0.6 * Noise(at.p * 7.0))) * Step(0.20, 0.13, std::abs(at.p.x));
+                      Step(0.1, 0.7, std::cos(at.p.x * 62 + 0.6 * Noise(at.p * 7.0))) *
+                      Step(0.20, 0.13, std::abs(at.p.x));
   const double x = std::abs(at.p.x);
   const double cheek = at.head * Step(0.16, 0.23, x) * Step(0.66, 0.56, at.p.z) *
                        Step(0.2, 0.8, std::sin(at.p.y * 58 + at.p.z * 20)) * Step(1.10, 1.02, at.p.y);
@@ -75,7 +80,8 @@ double Markings(const Place& at) {
 // Cream: belly, chest, throat, chin, muzzle, the spots over the eyes, the tail's tip.
 double Cream(const Place& at) {
   const double fuzz = 0.06 * Turbulence(at.p * 9.0), x = std::abs(at.p.x);
-  const double belly = Step(0.0, -0.55, at.n.y + fuzz * 3) * Step(0.30, 0.40, at.p.y) * (1 - at.tail) * Step(1.02, 0.92, at.p.y);
+  const double belly =
+      Step(0.0, -0.55, at.n.y + fuzz * 3) * Step(0.30, 0.40, at.p.y) * (1 - at.tail) * Step(1.02, 0.92, at.p.y);
   const double chest = Step(0.30, 0.62, at.n.z + fuzz - x * 1.3) * Step(0.20, 0.30, at.p.z) * Step(1.0, 0.88, at.p.y) *
                        Step(0.40, 0.5, at.p.y);
   const double muzzle = at.head * Step(0.70, 0.775, at.p.z - 0.35 * std::max(0.0, at.p.y - 1.0) + fuzz * 0.5) *
@@ -85,6 +91,15 @@ double Cream(const Place& at) {
   const double brow = Step(0.075, 0.03, glm::length(dvec3(x, at.p.y, at.p.z) - eye - dvec3(-0.03, 0.085, 0.02)));
   const double tip = at.tail * Step(0.80, 0.90, TailParameter(at.p) + fuzz);
   return std::max({belly, chest, muzzle, jaw, brow * 0.7, tip});
+}
+
+// A line from the nose down and two corners that smile.
+double Mouth(const Place& at) {
+  const double x = std::abs(at.p.x), front = Step(0.80, 0.84, at.p.z);
+  const double lip = 0.922 + 4.5 * x * x;
+  const double corners = Step(0.011, 0.005, std::abs(at.p.y - lip)) * Step(0.085, 0.065, x);
+  const double groove = Step(0.008, 0.004, x) * Step(0.915, 0.925, at.p.y) * Step(0.98, 0.97, at.p.y);
+  return std::max(corners * Step(0.76, 0.80, at.p.z), groove * front) * at.head;
 }
 
 dvec3 ColorAt(const Place& at) {
@@ -97,6 +112,7 @@ dvec3 ColorAt(const Place& at) {
   color = glm::mix(color, cream, socks);
   color = glm::mix(color, dark, at.ear * Step(1.36, 1.46, at.p.y) * 0.9);
   color = glm::mix(color, dvec3(0.93, 0.72, 0.62), InsideEar(at) * Step(1.46, 1.38, at.p.y) * 0.9);
+  color = glm::mix(color, dark * 0.7, 0.85 * Mouth(at));
   const double x = std::abs(at.p.x);
   const dvec3 toEye = dvec3(x, at.p.y, at.p.z) - Eye().center;
   const double liner = Step(0.079, 0.070, glm::length(toEye));
@@ -120,6 +136,7 @@ double LengthAt(const Place& at) {
   length = glm::mix(length, 1.0, at.tail * Step(0.05, 0.35, TailParameter(at.p)));
   length *= 0.9 + 0.15 * Turbulence(at.p * 8.0);
   length *= Step(0.004, 0.03, at.p.y);  // bald soles
+  length *= 1 - 0.7 * Mouth(at);
   const double eye = glm::length(dvec3(x, at.p.y, at.p.z) - Eye().center);
   const double nose = glm::length((at.p - Nose().center) / Nose().radii);
   return std::clamp(length * Step(0.072, 0.13, eye) * Step(1.1, 2.2, nose), 0.0, 1.0);
@@ -152,7 +169,8 @@ void ForTexels(const std::array<dvec2, 3>& p, int size, F visit) {
   for (int y = std::max(0, static_cast<int>(low.y)); y <= std::min(size - 1, static_cast<int>(high.y)); ++y) {
     for (int x = std::max(0, static_cast<int>(low.x)); x <= std::min(size - 1, static_cast<int>(high.x)); ++x) {
       const dvec2 q{x + 0.5, y + 0.5};
-      const dvec3 b{cross(p[1] - q, p[2] - q) / area, cross(p[2] - q, p[0] - q) / area, cross(p[0] - q, p[1] - q) / area};
+      const dvec3 b{cross(p[1] - q, p[2] - q) / area, cross(p[2] - q, p[0] - q) / area,
+                    cross(p[0] - q, p[1] - q) / area};
       if (b.x >= -1e-9 && b.y >= -1e-9 && b.z >= -1e-9) visit(static_cast<size_t>(y) * size + x, b);
     }
   }
@@ -210,8 +228,8 @@ Image PaintEye(uint32_t size) {
       const double r = glm::length(q), around = std::atan2(q.y, q.x);
       const double fibre = 0.5 + 0.5 * Noise({std::cos(around) * 9, std::sin(around) * 9, r * 2});
       dvec3 color = glm::mix(dvec3(0.95, 0.66, 0.16), dvec3(0.62, 0.30, 0.05), Step(0.35, 0.85, r) * 0.7 + 0.3 * fibre);
-      color = glm::mix(color, dvec3(0.03, 0.02, 0.02), Step(0.78, 0.88, r));             // rim
-      color = glm::mix(color, dvec3(0.01), Step(1.05, 0.90, glm::length(q / dvec2(0.42, 0.55))));  // pupil
+      color = glm::mix(color, dvec3(0.03, 0.02, 0.02), Step(0.78, 0.88, r));                       // rim
+      color = glm::mix(color, dvec3(0.01), Step(1.05, 0.90, glm::length(q / dvec2(0.50, 0.60))));  // pupil
       color = glm::mix(color, dvec3(1), Step(0.17, 0.11, glm::length(q - dvec2(-0.20, -0.24))));   // a painted glint
       Store(&image, size_t{y} * size + x, color);
     }

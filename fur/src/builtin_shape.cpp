@@ -37,7 +37,7 @@ double RoundCone(const dvec3& p, const dvec3& a, const dvec3& b, double ra, doub
 
 double Torso(const dvec3& p) {
   double d = RoundCone(p, {0, 0.63, 0.22}, {0, 0.66, -0.36}, 0.225, 0.215);
-  d = SmoothMin(d, Ellipsoid(p, {0, 0.63, 0.34}, {0.185, 0.23, 0.17}), 0.10);    // chest
+  d = SmoothMin(d, Ellipsoid(p, {0, 0.63, 0.34}, {0.185, 0.23, 0.17}), 0.10);          // chest
   d = SmoothMin(d, RoundCone(p, {0, 0.74, 0.30}, {0, 0.96, 0.50}, 0.17, 0.15), 0.14);  // neck
   return d;
 }
@@ -58,9 +58,10 @@ double Ear(const dvec3& p) {
   const dvec3 axis = glm::normalize(dvec3(0.30, 1, -0.10)), front = glm::normalize(dvec3(0.42, 0.0, 1));
   const dvec3 side = glm::normalize(glm::cross(axis, front)), facing = glm::cross(side, axis);
   const dvec3 q{glm::dot(p - base, side), glm::dot(p - base, axis), glm::dot(p - base, facing)};
-  const dvec3 flat{q.x, q.y, q.z * 1.9};
-  const double outer = RoundCone(flat, {0, 0, 0}, {0, 0.27, 0}, 0.135, 0.032) / 1.5;
-  const double hollow = RoundCone(dvec3(q.x, q.y, (q.z - 0.085) * 1.25), {0, 0.05, 0}, {0, 0.20, 0}, 0.085, 0.020) / 1.2;
+  const dvec3 flat{q.x, q.y, q.z * 1.55};
+  const double outer = RoundCone(flat, {0, 0, 0}, {0, 0.255, 0}, 0.130, 0.044) / 1.4;
+  const double hollow =
+      RoundCone(dvec3(q.x, q.y, (q.z - 0.092) * 1.25), {0, 0.05, 0}, {0, 0.19, 0}, 0.080, 0.024) / 1.2;
   return SmoothMax(outer, -hollow, 0.03);
 }
 
@@ -82,12 +83,12 @@ struct Knot {
   double radius;
 };
 constexpr std::array<Knot, 7> kSpine = {{{{0, 0.73, -0.50}, 0.075},
-                                        {{0, 0.69, -0.68}, 0.078},
-                                        {{0, 0.69, -0.84}, 0.092},
-                                        {{0, 0.76, -0.98}, 0.106},
-                                        {{0, 0.88, -1.07}, 0.110},
-                                        {{0, 1.02, -1.11}, 0.088},
-                                        {{0, 1.17, -1.10}, 0.030}}};
+                                         {{0, 0.69, -0.68}, 0.078},
+                                         {{0, 0.69, -0.84}, 0.092},
+                                         {{0, 0.76, -0.98}, 0.106},
+                                         {{0, 0.88, -1.07}, 0.110},
+                                         {{0, 1.02, -1.11}, 0.088},
+                                         {{0, 1.17, -1.10}, 0.030}}};
 
 double Tail(const dvec3& p) {
   double d = 1e9;
@@ -133,7 +134,7 @@ dvec3 Project(dvec3 p, int steps) {
 }
 
 Ball Eye() { return {{0.115, 1.050, 0.748}, {0.064, 0.064, 0.064}}; }
-dvec3 EyeAxis() { return glm::normalize(dvec3(0.34, 0.06, 1)); }
+dvec3 EyeAxis() { return glm::normalize(dvec3(0.26, 0.05, 1)); }
 Ball Nose() { return {{0, 0.985, 0.925}, {0.042, 0.030, 0.030}}; }
 
 double TailParameter(const dvec3& p) {

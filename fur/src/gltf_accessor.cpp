@@ -1,4 +1,5 @@
 // Numbers out of buffers.
+#include <algorithm>
 #include <cstring>
 
 #include "gltf_internal.h"
@@ -47,8 +48,7 @@ Source Locate(const Document& doc, const std::string& what, int view, uint64_t o
   const uint64_t stride = useStride && v.byteStride != 0 ? v.byteStride : elementSize;
   if (stride < elementSize) doc.Malformed(what, ": byteStride ", stride, " is less than an element's ", elementSize);
   const uint64_t end = count == 0 ? offset : offset + stride * (count - 1) + elementSize;
-  if (end > v.byteLength)
-    doc.Malformed(what, " needs ", end, " bytes, but bufferViews[", view, "] has ", v.byteLength);
+  if (end > v.byteLength) doc.Malformed(what, " needs ", end, " bytes, but bufferViews[", view, "] has ", v.byteLength);
   const std::vector<unsigned char>& bytes = doc.model.buffers[v.buffer].data;
   if (v.byteOffset + v.byteLength > bytes.size()) doc.Malformed("bufferViews[", view, "] is out of its buffer's range");
   return {bytes.data() + v.byteOffset + offset, stride};
@@ -103,9 +103,9 @@ Located LocateAll(const Document& doc, int accessor) {
   if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
       type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
     doc.Malformed(what, ".sparse.indices.componentType is ", type, ", expected an unsigned type");
-  located.sparseIndices = Locate(doc, what + ".sparse.indices", s.indices.bufferView,
-                                 static_cast<uint64_t>(s.indices.byteOffset), count, ComponentSize(doc, accessor, type),
-                                 false);
+  located.sparseIndices =
+      Locate(doc, what + ".sparse.indices", s.indices.bufferView, static_cast<uint64_t>(s.indices.byteOffset), count,
+             ComponentSize(doc, accessor, type), false);
   located.sparseValues = Locate(doc, what + ".sparse.values", s.values.bufferView,
                                 static_cast<uint64_t>(s.values.byteOffset), count, elementSize, false);
   return located;
@@ -134,8 +134,8 @@ Numbers ReadAccessor(const Document& doc, int accessor) {
       LoadElement(located.base.data + i * located.base.stride, componentSize, &numbers, i);
   if (!a.sparse.isSparse) return numbers;
   for (size_t i = 0; i < static_cast<size_t>(a.sparse.count); ++i) {
-    const double target = LoadComponent(located.sparseIndices.data + i * located.sparseIndices.stride,
-                                        a.sparse.indices.componentType);
+    const double target =
+        LoadComponent(located.sparseIndices.data + i * located.sparseIndices.stride, a.sparse.indices.componentType);
     if (target >= static_cast<double>(a.count))
       doc.Malformed("accessors[", accessor, "].sparse replaces element ", target, " of ", a.count);
     LoadElement(located.sparseValues.data + i * located.sparseValues.stride, componentSize, &numbers,

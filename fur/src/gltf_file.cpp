@@ -93,6 +93,9 @@ void RunTinygltf(std::span<const uint8_t> bytes, Document* doc) {
   if (ok && error.empty()) return;
   if (!files.missing.empty() && error.find("not found") != std::string::npos)
     throw LoadFailure(ErrorCode::InputMissing, Text(doc->file.string(), ": its buffer ", files.missing, " is missing"));
+  // tinygltf's own message would quote the whole data.
+  if (error.find("data:") != std::string::npos)
+    doc->Malformed("has a data URI that is not base64, or whose buffer's byteLength is not the number of bytes in it");
   doc->Malformed(error.empty() ? "cannot be read as glTF" : error);
 }
 
@@ -106,8 +109,25 @@ void CheckCounts(const Document& doc) {
       {"skins", m.skins.size()},         {"textures", m.textures.size()}};
   for (const auto& [key, count] : counts) {
     const auto it = doc.json.find(key);
-    if ((it == doc.json.end() ? 0 : it->size()) != count) doc.Malformed("has elements in ", key, " that cannot be read");
+    if ((it == doc.json.end() ? 0 : it->size()) != count)
+      doc.Malformed("has elements in ", key, " that cannot be read");
   }
+}
+
+// Counts brackets outside strings. (The library's parser callback knows the depth too, but makes the time grow with the
+// square of an array's length.)
+int JsonDepth(std::span<const uint8_t> text) {
+  int depth = 0, deepest = 0;
+  bool inString = false;
+  for (size_t i = 0; i < text.size() && deepest <= kMaxJsonDepth; ++i) {
+    const uint8_t c = text[i];
+    if (inString && c == '\\') ++i;
+    if (c == '"') inString = !inString;
+    if (inString) continue;
+    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+    if (c == ']' || c == '}') --depth;
+  }
+  return deepest;
 }
 
 }  // namespace
@@ -126,12 +146,9 @@ void Document::AddWarning(std::string line) {
 }
 
 Json ParseJson(std::span<const uint8_t> text, const std::string& where) {
-  const auto limitDepth = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > kMaxJsonDepth) throw LoadFailure(ErrorCode::InputMalformed, where + ": JSON nested too deep");
-    return true;
-  };
+  if (JsonDepth(text) > kMaxJsonDepth) throw LoadFailure(ErrorCode::InputMalformed, where + ": JSON nested too deep");
   try {
-    return Json::parse(text.begin(), text.end(), limitDepth);
+    return Json::parse(text.begin(), text.end());
   } catch (const Json::exception& e) {
     throw LoadFailure(ErrorCode::InputMalformed, where + ": is not valid JSON: " + e.what());
   }

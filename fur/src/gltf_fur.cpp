@@ -144,8 +144,8 @@ class Resolver {
     std::vector<Source> sources;
     const std::string& name = model_.materials[material].name;
     if (const Json* extras = Extras(material))
-      sources.push_back({*extras, Text(doc_.file.string(), ": materials[", material, "].extras.fur"),
-                         doc_.file.parent_path(), true});
+      sources.push_back(
+          {*extras, Text(doc_.file.string(), ": materials[", material, "].extras.fur"), doc_.file.parent_path(), true});
     if (file_.fallback) sources.push_back(*file_.fallback);
     if (file_.materials.contains(name) && file_.materials[name].is_object())
       sources.push_back({file_.materials[name], Text(options_.furFile.string(), ": materials.", name), file_.folder});
@@ -207,8 +207,8 @@ class Resolver {
   }
 
   // Strands look natural when a tile, which holds some forty of them across, covers about as much skin as the fur is
-  // long: then a strand is a few hundredths of its length thick. The mean size of the UV square on the skin follows from
-  // the areas. A whole number keeps the tiling seamless where u or v wraps from 1 to 0.
+  // long: then a strand is a few hundredths of its length thick. The mean size of the UV square on the skin follows
+  // from the areas. A whole number keeps the tiling seamless where u or v wraps from 1 to 0.
   double TilesAcross(uint32_t material, double length) const {
     constexpr double kTileInLengths = 1.3, kMostTiles = 4096;
     double skin = 0, uv = 0;
@@ -251,21 +251,21 @@ class Resolver {
     const std::vector<fs::path> files(layers.begin(), layers.end());
     Result<FurVolume> volume = LoadFurLayers(files);
     if (!volume) Fail(volume.error());
-    ClearSolidTip(&*volume);
+    WarnOfSolidTip(*volume);
     return std::move(*volume);
   }
 
-  // Hair ends thin. Where only the last slice is solid (a defect of the published cat), it would be a shell of felt.
-  void ClearSolidTip(FurVolume* volume) {
-    const size_t slice = size_t{4} * volume->width * volume->height;
+  // Hair ends thin. Where only the last slice is solid (a defect of the published cat), it is a film all around. Look
+  // correct empties the last slice when it uploads the volume; look seed shows the asset as shipped.
+  void WarnOfSolidTip(const FurVolume& volume) {
+    const size_t slice = size_t{4} * volume.width * volume.height;
     const auto isSolid = [&](size_t layer) {
       for (size_t i = layer * slice + 3; i < (layer + 1) * slice; i += 4)
-        if (volume->pixels[i] != 255) return false;
+        if (volume.pixels[i] != 255) return false;
       return true;
     };
-    if (volume->layers < 2 || !isSolid(volume->layers - 1) || isSolid(volume->layers - 2)) return;
-    for (size_t i = (volume->layers - 1) * slice + 3; i < volume->pixels.size(); i += 4) volume->pixels[i] = 0;
-    doc_.Warn("the last fur layer is solid though the one below is not; it is taken as empty");
+    if (volume.layers < 2 || !isSolid(volume.layers - 1) || isSolid(volume.layers - 2)) return;
+    doc_.Warn("the last fur layer is solid though the one below is not; look correct takes it as empty");
   }
 };
 

@@ -169,7 +169,8 @@ class PrimitiveReader {
       draft_.primitive.vertices[i].uv = finite ? uv : glm::vec2(0);
       bad += finite ? 0 : 1;
     }
-    if (bad != 0) doc_.Warn(draft_.primitive.name, ": ", bad, " texture coordinates are not finite; they are taken as 0");
+    if (bad != 0)
+      doc_.Warn(draft_.primitive.name, ": ", bad, " texture coordinates are not finite; they are taken as 0");
     draft_.hasUvs = true;
   }
 

@@ -65,11 +65,11 @@ void CheckSchema(const Json& json, const std::string& where);
 
 // gltf_accessor.cpp
 struct Numbers {
-  size_t count = 0;             // elements
-  unsigned components = 1;      // numbers for each element
-  int componentType = 0;        // as in the file
+  size_t count = 0;         // elements
+  unsigned components = 1;  // numbers for each element
+  int componentType = 0;    // as in the file
   bool normalized = false;
-  std::vector<double> values;   // count * components; exact for every type glTF has
+  std::vector<double> values;  // count * components; exact for every type glTF has
 };
 // Checks the byte ranges of an accessor, with 64-bit arithmetic that cannot overflow: all inputs are below 2^31.
 void CheckAccessor(const Document& doc, int accessor);
@@ -93,8 +93,8 @@ struct Placement {
   glm::dmat4 transform{1};
 };
 struct Hierarchy {
-  std::vector<glm::dmat4> global;      // of every node
-  std::vector<Placement> placements;   // nodes with a mesh in the scene, in depth-first order
+  std::vector<glm::dmat4> global;     // of every node
+  std::vector<Placement> placements;  // nodes with a mesh in the scene, in depth-first order
 };
 Hierarchy ReadHierarchy(Document& doc);
 // Moves the vertices to scene space by the joints' rest pose.

@@ -9,8 +9,7 @@ namespace {
 
 class MaterialReader {
  public:
-  MaterialReader(Document& doc, Model* model)
-      : doc_(doc), model_(model), imageOf_(doc.model.images.size(), -1) {}
+  MaterialReader(Document& doc, Model* model) : doc_(doc), model_(model), imageOf_(doc.model.images.size(), -1) {}
 
   void ReadAll() {
     for (size_t i = 0; i < doc_.model.materials.size(); ++i) model_->materials.push_back(Read(i));

@@ -163,8 +163,8 @@ void ApplySkin(Document& doc, const Hierarchy& hierarchy, int skin, Draft* draft
     const double side = glm::determinant(linear) < 0 ? -1.0 : 1.0;
     const glm::dvec3 normal = side * (cofactor * glm::dvec3(v.normal)), tangent = linear * glm::dvec3(v.tangent);
     v.normal = glm::vec3(normal / std::max(glm::length(normal), 1e-300));
-    v.tangent = glm::vec4(glm::vec3(tangent / std::max(glm::length(tangent), 1e-300)),
-                          v.tangent.w * static_cast<float>(side));
+    v.tangent =
+        glm::vec4(glm::vec3(tangent / std::max(glm::length(tangent), 1e-300)), v.tangent.w * static_cast<float>(side));
   }
 }
 

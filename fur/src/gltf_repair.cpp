@@ -37,8 +37,8 @@ glm::dvec3 FaceNormal(const Primitive& p, size_t triangle) {
   return glm::cross(Position(p, i[1]) - a, Position(p, i[2]) - a);
 }
 
-// glTF asks for flat normals where a file has none. Fur on flat normals would part along every edge, so that vertices at
-// one position share the area-weighted mean instead.
+// glTF asks for flat normals where a file has none. Fur on flat normals would part along every edge, so that vertices
+// at one position share the area-weighted mean instead.
 std::vector<glm::dvec3> SmoothNormals(const Primitive& p) {
   const Weld weld = WeldByPosition(p.vertices);
   std::vector<glm::dvec3> shared(weld.representative.size(), glm::dvec3(0)), own(p.vertices.size(), glm::dvec3(0));
@@ -104,21 +104,17 @@ void MakeBoxUvs(double diameter, Draft* draft) {
   std::vector<Vertex> vertices;
   vertices.reserve(p.vertices.size());
   for (size_t i = 0; i < p.indices.size(); i += 3) {
-    const int side = DominantAxis(FaceNormal(p, i / 3));
+    const int side = DominantAxis(FaceNormal(p, i / 3));  // from the old vertices, which stay until the end
     for (size_t corner = i; corner < i + 3; ++corner) {
-      uint32_t& copy = copies[p.indices[corner]][static_cast<size_t>(side)];
+      const uint32_t old = p.indices[corner];
+      uint32_t& copy = copies[old][static_cast<size_t>(side)];
       if (copy == kNone) {
         copy = static_cast<uint32_t>(vertices.size());
-        vertices.push_back(p.vertices[p.indices[corner]]);
+        vertices.push_back(p.vertices[old]);
         vertices.back().uv = glm::vec2(BoxUv(glm::dvec3(vertices.back().position), side) * scale);
       }
+      p.indices[corner] = copy;
     }
-  }
-  // Only now, because FaceNormal above reads the old numbers.
-  for (size_t i = 0; i < p.indices.size(); i += 3) {
-    const auto side = static_cast<size_t>(DominantAxis(FaceNormal(p, i / 3)));
-    const std::array<uint32_t, 3> old = {p.indices[i], p.indices[i + 1], p.indices[i + 2]};
-    for (size_t corner = 0; corner < 3; ++corner) p.indices[i + corner] = copies[old[corner]][side];
   }
   p.vertices = std::move(vertices);
 }
@@ -140,8 +136,8 @@ Frame TriangleFrame(const Primitive& p, const uint32_t* i) {
   return ok ? Frame{frame.u * area, frame.v * area} : Frame{};
 }
 
-// The least of MikkTSpace's rules: tangents are averaged for each vertex as the file splits it and made perpendicular to
-// the normal. Vertices that mirrored and unmirrored triangles share are not split; the larger side decides.
+// The least of MikkTSpace's rules: tangents are averaged for each vertex as the file splits it and made perpendicular
+// to the normal. Vertices that mirrored and unmirrored triangles share are not split; the larger side decides.
 void MakeTangents(Draft* draft) {
   Primitive& p = draft->primitive;
   std::vector<Frame> frames(p.vertices.size());

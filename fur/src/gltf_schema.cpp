@@ -1,7 +1,7 @@
 // A table of what a glTF file may say where, checked before tinygltf sees the text: tinygltf takes wrong types for
 // absent values and follows references without looking.
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -52,11 +52,17 @@ constexpr Rule kRules[] = {
     {.path = "accessors[].normalized", .kind = Kind::Bool},
     {.path = "accessors[].sparse.count", .kind = Kind::UInt, .required = true},
     {.path = "accessors[].sparse.indices", .kind = Kind::Object, .required = true},
-    {.path = "accessors[].sparse.indices.bufferView", .kind = Kind::Reference, .target = "bufferViews", .required = true},
+    {.path = "accessors[].sparse.indices.bufferView",
+     .kind = Kind::Reference,
+     .target = "bufferViews",
+     .required = true},
     {.path = "accessors[].sparse.indices.byteOffset", .kind = Kind::UInt},
     {.path = "accessors[].sparse.indices.componentType", .kind = Kind::UInt, .required = true},
     {.path = "accessors[].sparse.values", .kind = Kind::Object, .required = true},
-    {.path = "accessors[].sparse.values.bufferView", .kind = Kind::Reference, .target = "bufferViews", .required = true},
+    {.path = "accessors[].sparse.values.bufferView",
+     .kind = Kind::Reference,
+     .target = "bufferViews",
+     .required = true},
     {.path = "accessors[].sparse.values.byteOffset", .kind = Kind::UInt},
     {.path = "bufferViews[].buffer", .kind = Kind::Reference, .target = "buffers", .required = true},
     {.path = "bufferViews[].byteOffset", .kind = Kind::UInt},
@@ -84,6 +90,9 @@ constexpr Rule kRules[] = {
     {.path = "skins[].inverseBindMatrices", .kind = Kind::Reference, .target = "accessors"},
     {.path = "skins[].skeleton", .kind = Kind::Reference, .target = "nodes"},
 };
+
+constexpr const char* kArrays[] = {"accessors", "bufferViews", "buffers", "images", "materials", "meshes",
+                                   "nodes",     "samplers",    "scenes",  "skins",  "textures"};
 
 constexpr const char* kTextureInfos[] = {
     "materials[].pbrMetallicRoughness.baseColorTexture",
@@ -229,6 +238,8 @@ void CheckExtensions(const Json& json, const Checker& checker) {
 void CheckSchema(const Json& json, const std::string& where) {
   const Checker checker(json, where);
   if (!json.is_object()) checker.Fail("is JSON, but not a glTF object");
+  // First, so that references count what is really there.
+  for (const char* array : kArrays) checker.Check({.path = array, .kind = Kind::Array});
   for (const Rule& rule : kRules) checker.Check(rule);
   for (const std::string info : kTextureInfos) {
     checker.Check({.path = (info + ".index").c_str(), .kind = Kind::Reference, .target = "textures", .required = true});

@@ -32,10 +32,11 @@ const std::array kKeys = {
     Key{"direction_map", &FurParams::directionMap},
     Key{"layers", &FurParams::layers},
     Key{"layer_uv_scale", &FurParams::layerUvScale, 0, 1e5},
-    Key{"shells", &FurParams::shells, 0, 1024},
+    Key{"shells", &FurParams::shells, 0, 512},
     Key{"self_shadow", &FurParams::selfShadow, 0, 1},
     Key{"specular_power", &FurParams::specularPower, 0, 1e5, true},
     Key{"specular_scale", &FurParams::specularScale, 0, 1e3},
+    Key{"height_falloff", &FurParams::heightFalloff, 0, 1},
 };
 
 // Written by the converter of the cat asset. Objects are sorted by key, so that the plain names come later and win.
@@ -130,6 +131,8 @@ Result<Done> ApplyFurJson(const Json& object, const std::string& where, bool ext
   if (!object.is_object())
     return Error{ErrorCode::InputMalformed, where + ": must be an object of fur parameters, not " + object.type_name()};
   FurParams changed = *params;  // all or nothing
+  // The cat's extras state the published law in words, "alpha*(1-i/16)".
+  if (extras && object.contains("source_shell_alpha")) changed.heightFalloff = 1;
   for (const auto& [name, value] : object.items()) {
     const Key* key = FindKey(extras ? WithoutAlias(name) : name);
     if (key == nullptr && extras && IsDescription(name)) continue;

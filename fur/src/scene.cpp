@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <numeric>
 
 namespace fur {
 namespace {
@@ -23,23 +25,40 @@ glm::dmat4 Place(const glm::dvec3& position, double degrees) {
   return glm::rotate(moved, glm::radians(degrees), glm::dvec3(0, 1, 0));
 }
 
-// The distance along -forward from `center` at which `point` is just inside the view.
-double DistanceToShow(const glm::dvec3& point, const glm::dvec3& center, const glm::dmat3& axes, double tanX, double tanY) {
-  const glm::dvec3 v = glm::transpose(axes) * (point - center);  // right, up, forward
-  return std::max(std::abs(v.x) / tanX, std::abs(v.y) / tanY) - v.z;
-}
+// What a view direction sees: axes and the tangents of the half angles.
+struct Frustum {
+  glm::dmat3 axes;  // right, up, forward
+  double tanX, tanY;
+};
 
-glm::dvec3 Corner(const Bounds& b, int i) {
-  return {i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z};
-}
-
-Bounds BoundsOf(const std::vector<glm::dvec3>& points) {
-  Bounds b{points.front(), points.front()};
-  for (const glm::dvec3& p : points) {
-    b.min = glm::min(b.min, p);
-    b.max = glm::max(b.max, p);
+struct Range {
+  double min = std::numeric_limits<double>::infinity(), max = -min;
+  void Add(double v) {
+    min = std::min(min, v);
+    max = std::max(max, v);
   }
-  return b;
+  double Middle() const { return (min + max) / 2; }
+};
+
+// The distance behind `center` at which every point is inside.
+double DistanceToShow(const std::vector<glm::dvec3>& points, const glm::dvec3& center, const Frustum& f) {
+  double distance = 0;
+  for (const glm::dvec3& p : points) {
+    const glm::dvec3 v = glm::transpose(f.axes) * (p - center);
+    distance = std::max(distance, std::max(std::abs(v.x) / f.tanX, std::abs(v.y) / f.tanY) - v.z);
+  }
+  return distance;
+}
+
+// Moves `center` so that the points' picture lies in the middle of the view.
+glm::dvec3 Recenter(const std::vector<glm::dvec3>& points, const glm::dvec3& center, double distance, const Frustum& f) {
+  Range x, y;
+  for (const glm::dvec3& p : points) {
+    const glm::dvec3 v = glm::transpose(f.axes) * (p - center);
+    x.Add(v.x / (v.z + distance));
+    y.Add(v.y / (v.z + distance));
+  }
+  return center + (f.axes[0] * x.Middle() + f.axes[1] * y.Middle()) * distance;
 }
 
 }  // namespace
@@ -70,26 +89,35 @@ std::vector<glm::dmat4> PlaceAnimals(uint32_t count, double scale) {
   return placements;
 }
 
-Camera FrameBounds(const Bounds& bounds, const std::vector<glm::dmat4>& placements, double fovY, double aspect) {
-  std::vector<glm::dvec3> points;
-  for (const glm::dmat4& m : placements)
-    for (int i = 0; i < 8; ++i) points.push_back(m * glm::dvec4(Corner(bounds, i), 1));
-  const glm::dvec3 center = BoundsOf(points).Center();
+Camera FramePoints(const std::vector<glm::dvec3>& points, double fovY, double aspect, double scale) {
   const glm::dvec3 forward = glm::normalize(glm::dvec3(0.62, -0.38, 0.80));
   const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
-  const glm::dmat3 axes(right, glm::cross(right, forward), forward);
-  const double tanY = std::tan(glm::radians(fovY) / 2), tanX = tanY * aspect;
-  double distance = 0;
-  for (const glm::dvec3& p : points) distance = std::max(distance, DistanceToShow(p, center, axes, tanX, tanY));
-  distance = distance > 0 ? distance * 1.03 : 1;
+  const double tanY = std::tan(glm::radians(fovY) / 2) * 0.94;  // some air around
+  const Frustum frustum{{right, glm::cross(right, forward), forward}, tanY * aspect, tanY};
+  glm::dvec3 center = std::accumulate(points.begin(), points.end(), glm::dvec3(0)) / double(points.size());
+  double distance = DistanceToShow(points, center, frustum);
+  for (int i = 0; i < 8 && distance > 0; ++i) {
+    center = Recenter(points, center, distance, frustum);
+    distance = DistanceToShow(points, center, frustum);
+  }
+  if (distance <= 0) distance = scale;  // a single point
   Camera camera;
   camera.eye = center - forward * distance;
   camera.target = center;
   camera.fovY = fovY;
-  const double scale = SceneScale(bounds);
-  camera.zNear = 0.1 * scale;
+  camera.zNear = std::min(0.1 * scale, distance * 0.05);
   camera.zFar = 1000 * scale;
   return camera;
+}
+
+Camera FrameBounds(const Bounds& b, const std::vector<glm::dmat4>& placements, double fovY, double aspect) {
+  std::vector<glm::dvec3> corners;
+  for (const glm::dmat4& m : placements)
+    for (int i = 0; i < 8; ++i) {
+      const glm::dvec4 corner(i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z, 1);
+      corners.push_back(m * corner);
+    }
+  return FramePoints(corners, fovY, aspect, SceneScale(b));
 }
 
 Camera TurnCamera(const Camera& camera, double degrees) {

@@ -1,6 +1,6 @@
-// Fur grown as particles: Lengyel, Praun, Finkelstein, Hoppe, "Real-Time Fur over Arbitrary Surfaces", I3D 2001, section
-// 3.2, in its simplest case: each hair is a curve with a closed form. Nothing here calls the maths library beyond sqrt,
-// floor, frexp and ldexp, which IEEE 754 fixes to the bit.
+// Fur grown as particles: Lengyel, Praun, Finkelstein, Hoppe, "Real-Time Fur over Arbitrary Surfaces", I3D 2001,
+// section 3.2, in its simplest case: each hair is a curve with a closed form. Nothing here calls the maths library
+// beyond sqrt, floor, frexp and ldexp, which IEEE 754 fixes to the bit.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,8 +22,8 @@ constexpr double kClump = 0.45;
 constexpr double kLengthDeviation = 0.13;  // of the class's mean length
 constexpr double kLean = 0.35;             // part of the bend that is straight lean, the rest curves
 
-// x^p for x in [0, 1], p >= 0, the same on every machine: log2 by its atanh series on the mantissa in [1/sqrt 2, sqrt 2),
-// 2^y by Taylor. Better than 1e-10.
+// x^p for x in [0, 1], p >= 0, the same on every machine: log2 by its atanh series on the mantissa in [1/sqrt 2, sqrt
+// 2), 2^y by Taylor. Better than 1e-10.
 double Power(double x, double p) {
   if (p == 0) return 1;
   if (x <= 0) return 0;
@@ -105,8 +105,8 @@ class TorusPoints {
   std::vector<dvec2> points_;
 };
 
-// Poisson-disc roots by dart throwing; the radius starts at 0.8 of the hexagonal packing's and shrinks a little whenever
-// 24 darts in a row miss, so that the count is met exactly.
+// Poisson-disc roots by dart throwing; the radius starts at 0.8 of the hexagonal packing's and shrinks a little
+// whenever 24 darts in a row miss, so that the count is met exactly.
 TorusPoints ThrowRoots(uint32_t count, Pcg32* random) {
   TorusPoints roots(count);
   double radius = 0.8 * std::sqrt(1.1547 / std::max(1u, count));
@@ -141,7 +141,8 @@ class FlowField {
   std::array<dvec2, kCells * kCells> lattice_;
 };
 
-// One hair. At height h (0 .. length) its centre is root + bend * (lean s + (1 - lean) s^2) + clump * s^2, s = h / length.
+// One hair. At height h (0 .. length) its centre is root + bend * (lean s + (1 - lean) s^2) + clump * s^2, s = h /
+// length.
 struct Strand {
   dvec2 root{0};  // in tiles, as everything sideways
   double length = 1;
@@ -195,8 +196,9 @@ std::vector<Strand> MakeStrands(const StrandParams& params) {
 
 // Eight strips of equal height and of the disc's own area in each: fraction (F(s1) - F(s0)) / pi with
 // F(s) = s sqrt(1 - s^2) + asin s, s = -1, -3/4, .. 1.
-constexpr std::array<double, 8> kStripArea = {0.0721468064071937, 0.1233543030706916, 0.1470177117592610, 0.1574811787628537,
-                                              0.1574811787628537, 0.1470177117592610, 0.1233543030706916, 0.0721468064071937};
+constexpr std::array<double, 8> kStripArea = {0.0721468064071937, 0.1233543030706916, 0.1470177117592610,
+                                              0.1574811787628537, 0.1574811787628537, 0.1470177117592610,
+                                              0.1233543030706916, 0.0721468064071937};
 
 // Accumulates one slice: 1 - coverage, and the tangent weighted by coverage.
 class Slice {

@@ -96,8 +96,8 @@ class LineAdjacencyBuilder {
     lines_.insert(lines_.end(), {Opposite(b), indices_[a], indices_[Next(a)], Opposite(a)});
   }
 
-  // Angles are measured from the first triangle, so that it stays first; equal angles (triangles that lie on each other)
-  // keep the order of the index list, which makes the result deterministic.
+  // Angles are measured from the first triangle, so that it stays first; equal angles (triangles that lie on each
+  // other) keep the order of the index list, which makes the result deterministic.
   void SortByAngle(std::vector<uint32_t>* corners) const {
     const uint32_t first = corners->front();
     const glm::dvec3 origin = Position(first);
@@ -157,10 +157,10 @@ std::vector<uint32_t> SeedLineAdjacency(std::span<const uint32_t> indices) {
   return lines;
 }
 
-// The indices are those of the triangles themselves, not the welded ones: vertices 1, 2 and 3 carry the first triangle's
-// texture coordinates, vertex 0 the other triangle's. Linear in the number of triangles, apart from the sort of the
-// triangles around one non-manifold edge. Two triangles on the same three points (a sheet with two sides) give 0 == 3
-// by position, as a boundary does: seen edge-on both are silhouettes.
+// The indices are those of the triangles themselves, not the welded ones: vertices 1, 2 and 3 carry the first
+// triangle's texture coordinates, vertex 0 the other triangle's. Linear in the number of triangles, apart from the sort
+// of the triangles around one non-manifold edge. Two triangles on the same three points (a sheet with two sides) give 0
+// == 3 by position, as a boundary does: seen edge-on both are silhouettes.
 std::vector<uint32_t> LineAdjacency(std::span<const Vertex> vertices, std::span<const uint32_t> indices,
                                     const Weld& weld) {
   const auto cornerCount = static_cast<uint32_t>(indices.size() - indices.size() % 3);

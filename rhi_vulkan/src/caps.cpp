@@ -8,7 +8,7 @@ namespace {
 
 template <size_t N>
 void CopyText(std::array<char, N>& out, const char* text) {
-  std::snprintf(out.data(), N, "%s", text);
+  std::snprintf(out.data(), N, "%.*s", int(N - 1), text);
 }
 
 std::vector<std::string> DeviceExtensions(const InstanceTable& vki, VkPhysicalDevice physical) {

@@ -55,7 +55,9 @@ VkFormat ToVk(Format format) { return kFormats[size_t(format) < kFormats.size() 
 VkImageAspectFlags Aspects(Format format) {
   const FormatInfo& info = GetFormatInfo(format);
   if (!info.depth) return VK_IMAGE_ASPECT_COLOR_BIT;
-  return VK_IMAGE_ASPECT_DEPTH_BIT | (info.stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : VkImageAspectFlags(0));
+  VkImageAspectFlags aspects = VK_IMAGE_ASPECT_DEPTH_BIT;
+  if (info.stencil) aspects |= VK_IMAGE_ASPECT_STENCIL_BIT;
+  return aspects;
 }
 
 FormatSupport QueryFormatSupport(const InstanceTable& vki, VkPhysicalDevice physical, Format format) {

@@ -21,8 +21,8 @@ double MeanCoverage(const FurVolume& v, uint32_t layer) {
 }
 
 StrandParams Cylinders(uint32_t count, double radius) {
-  return {.size = 128, .layers = 8, .underStrands = 0, .overStrands = count, .overRadius = radius, .taper = 0,
-          .bend = 0};
+  return {
+      .size = 128, .layers = 8, .underStrands = 0, .overStrands = count, .overRadius = radius, .taper = 0, .bend = 0};
 }
 
 TEST(GrowStrands, FillsWhatItSays) {
@@ -107,8 +107,15 @@ TEST(GrowStrands, TilesSeamlessly) {
 // One strand that leans over the border continues on the other side.
 TEST(GrowStrands, StrandsWrapAround) {
   for (uint32_t seed = 1; seed < 6; ++seed) {
-    const FurVolume v = GrowStrands({.size = 16, .layers = 8, .underStrands = 0, .overStrands = 1, .overRadius = 2,
-                                     .taper = 0, .bend = 1, .spread = 0, .seed = seed});
+    const FurVolume v = GrowStrands({.size = 16,
+                                     .layers = 8,
+                                     .underStrands = 0,
+                                     .overStrands = 1,
+                                     .overRadius = 2,
+                                     .taper = 0,
+                                     .bend = 1,
+                                     .spread = 0,
+                                     .seed = seed});
     double low = 1, high = 0;
     for (uint32_t j = 0; j < 5; ++j) {
       low = std::min(low, MeanCoverage(v, j));

@@ -35,11 +35,11 @@ TEST(WeldByPosition, NothingInNothingOut) {
 TEST(LineAdjacency, Tetrahedron) {
   const auto vertices = Points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   const Indices indices{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
-  EXPECT_EQ(Lines(vertices, indices), (Indices{3, 0, 2, 1,    //
-                                               3, 2, 1, 0,    //
-                                               3, 1, 0, 2,    //
-                                               2, 1, 3, 0,    //
-                                               2, 3, 0, 1,    //
+  EXPECT_EQ(Lines(vertices, indices), (Indices{3, 0, 2, 1,  //
+                                               3, 2, 1, 0,  //
+                                               3, 1, 0, 2,  //
+                                               2, 1, 3, 0,  //
+                                               2, 3, 0, 1,  //
                                                1, 3, 2, 0}));
 }
 
@@ -61,8 +61,8 @@ TEST(LineAdjacency, StripOfQuads) {
   EXPECT_EQ(inner, 3u);
 }
 
-// Five triangles over five vertices: the shortest Moebius strip. Each is (i, i+1, i+2) mod 5; its winding cannot be made
-// consistent, which must not matter.
+// Five triangles over five vertices: the shortest Moebius strip. Each is (i, i+1, i+2) mod 5; its winding cannot be
+// made consistent, which must not matter.
 TEST(LineAdjacency, MoebiusStrip) {
   std::vector<Vertex> vertices;
   for (int i = 0; i < 5; ++i) {

@@ -5,11 +5,11 @@
 
 namespace shaderc {
 
-// A cbuffer, whose offsets here are std140's. Throws where Direct3D's packing (16-byte registers) differs.
+// A cbuffer. Throws where Direct3D's packing (16-byte registers) and std140 would put a member at different places.
 void CheckConstantBuffer(const spirv_cross::Compiler&, const spirv_cross::SPIRType&, const std::string& name);
 
-// An element of a structured buffer, whose offsets here are std430's. Throws where Direct3D's (and a C++ struct of floats
-// and ints) differ: members follow each other at 4-byte alignment.
+// An element of a structured buffer. Throws where Direct3D's packing (and that of a C++ struct of floats and ints: one
+// member after the other) differs from std430.
 void CheckElement(const spirv_cross::Compiler&, const spirv_cross::SPIRType& element, uint32_t stride,
                   const std::string& name);
 

@@ -14,8 +14,10 @@ std::string Quote(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n') out += "\\n";
-    else out += c;
+    if (c == '\n')
+      out += "\\n";
+    else
+      out += c;
   }
   return out + "\"";
 }
@@ -58,8 +60,9 @@ const char* StageName(rhi::Stage stage) {
   return kNames[size_t(stage)];
 }
 const char* TopologyName(rhi::PrimitiveTopology t) {
-  constexpr const char* kNames[] = {"PointList",     "LineList",    "LineStrip",    "TriangleList",   "TriangleStrip",
-                                    "LineListAdj",   "LineStripAdj", "TriangleListAdj", "TriangleStripAdj"};
+  constexpr const char* kNames[] = {"PointList",    "LineList",        "LineStrip",
+                                    "TriangleList", "TriangleStrip",   "LineListAdj",
+                                    "LineStripAdj", "TriangleListAdj", "TriangleStripAdj"};
   return kNames[size_t(t)];
 }
 
@@ -73,8 +76,9 @@ void EmitTables(std::ostream& out, const Reflection& r) {
   Table(out, "rhi::ShaderConstantBuffer", "kConstantBuffers", r.constantBuffers,
         [&](const ConstantBuffer& b) { out << int(b.slot) << ", " << b.byteWidth << ", " << Quote(b.name); });
   Table(out, "rhi::ShaderResource", "kResources", r.resources, [&](const Resource& x) {
-    out << "rhi::ShaderResourceKind::" << KindName(x.kind) << ", " << int(x.slot) << ", rhi::TextureDim::" << DimName(x.dim)
-        << ", " << (x.integer ? "true" : "false") << ", " << x.stride << ", " << Quote(x.name);
+    out << "rhi::ShaderResourceKind::" << KindName(x.kind) << ", " << int(x.slot)
+        << ", rhi::TextureDim::" << DimName(x.dim) << ", " << (x.integer ? "true" : "false") << ", " << x.stride << ", "
+        << Quote(x.name);
   });
   Table(out, "rhi::ShaderSampler", "kSamplers", r.samplers,
         [&](const Sampler& s) { out << int(s.slot) << ", " << Quote(s.name); });
@@ -95,7 +99,8 @@ void EmitBlob(std::ostream& out, const Options& o, const Reflection& r) {
       << "        .pairs = " << View("kPairs", r.pairs) << ",\n"
       << "        .inputs = " << View("kInputs", r.inputs) << ",\n"
       << "        .gsInput = rhi::PrimitiveTopology::" << TopologyName(r.gsInput) << ",\n"
-      << "        .gsMaxVertices = " << r.gsMaxVertices << ",\n        .gsOutputComponents = " << r.gsOutputComponents << ",\n"
+      << "        .gsMaxVertices = " << r.gsMaxVertices << ",\n        .gsOutputComponents = " << r.gsOutputComponents
+      << ",\n"
       << "        .usesVertexId = " << flag(r.usesVertexId) << ",\n        .usesInstanceId = " << flag(r.usesInstanceId)
       << ",\n        .writesLayer = " << flag(r.writesLayer) << ",\n        .groupSize = {" << r.groupSize[0] << ", "
       << r.groupSize[1] << ", " << r.groupSize[2] << "}}};\n";
@@ -114,9 +119,11 @@ std::string EscapePath(const std::string& path) {
 
 }  // namespace
 
-std::string EmitCpp(const Options& o, const std::vector<uint32_t>& spirv, const std::string& glsl, const Reflection& r) {
+std::string EmitCpp(const Options& o, const std::vector<uint32_t>& spirv, const std::string& glsl,
+                    const Reflection& r) {
   std::ostringstream out;
-  out << "// Made by fur_shaderc from " << o.name << ". Do not edit.\n#include <iterator>\n\n#include \"rhi/shader.h\"\n\n"
+  out << "// Made by fur_shaderc from " << o.name
+      << ". Do not edit.\n#include <iterator>\n\n#include \"rhi/shader.h\"\n\n"
       << "namespace " << o.nameSpace << " {\nnamespace {\n\n";
   EmitSpirv(out, spirv);
   out << "constexpr char kGlsl[] =\n" << QuoteLines(glsl) << "    ;\n";

@@ -15,6 +15,7 @@ struct Where {
 };
 
 struct Problem {
+  Problem(Where at, std::string what) : where(std::move(at)), text(std::move(what)) {}
   Where where;
   std::string text;
 };

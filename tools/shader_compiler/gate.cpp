@@ -42,7 +42,7 @@ void AddSums(const Module& module, std::vector<Problem>& problems) {
   for (size_t i = 0; i < module.code.size(); ++i) {
     const Instruction& in = module.code[i];
     const char* what = in.op == spv::OpExtInst ? RefusedExt(in.words[3]) : RefusedOp(in.op);
-    if (what) problems.push_back({places[i], std::string(what) + kExplicit});
+    if (what) problems.emplace_back(places[i], std::string(what) + kExplicit);
   }
 }
 
@@ -50,9 +50,11 @@ void AddSums(const Module& module, std::vector<Problem>& problems) {
 void AddCounters(const Module& module, std::vector<Problem>& problems) {
   for (const auto& [id, name] : module.Names()) {
     const size_t at = name.find("@count");
-    if (at != std::string::npos && module.FindVariable(id))
-      problems.push_back({{}, "'" + name.substr(0, at) + "' uses a hidden counter (Append, Consume, IncrementCounter, "
-                                                         "DecrementCounter); keep the count in a buffer of your own"});
+    if (at == std::string::npos || !module.FindVariable(id)) continue;
+    const std::string text = "'" + name.substr(0, at) +
+                             "' uses a hidden counter (Append, Consume, IncrementCounter, DecrementCounter); keep the "
+                             "count in a buffer of your own";
+    problems.emplace_back(Where{}, text);
   }
 }
 
@@ -110,8 +112,9 @@ void AddPositionW(const Module& module, std::vector<Problem>& problems) {
     reads.NoteConstant(module.code[i]);
     inFunction = inFunction || module.code[i].op == spv::OpFunction;
     if (inFunction && module.code[i].op != spv::OpLine && reads.Refused(module.code[i]))
-      problems.push_back({places[i], "reads SV_Position.w, or the whole of SV_Position, in a pixel shader: w is 1/w here; "
-                                     "read .xyz, or pass w in a TEXCOORD"});
+      problems.emplace_back(places[i],
+                            "reads SV_Position.w, or the whole of SV_Position, in a pixel shader: w is 1/w here; "
+                            "read .xyz, or pass w in a TEXCOORD");
   }
 }
 
@@ -129,8 +132,12 @@ void GateOptimized(const Module& module, rhi::Stage stage) {
   AddSums(module, problems);
   if (stage == rhi::Stage::Pixel) AddPositionW(module, problems);
   if (stage == rhi::Stage::Vertex && module.FindBuiltIn(spv::BuiltInLayer))
-    problems.push_back({{}, "SV_RenderTargetArrayIndex can be written in a geometry shader only"});
+    problems.emplace_back(Where{}, "SV_RenderTargetArrayIndex can be written in a geometry shader only");
   ThrowIfAny(std::move(problems));
+}
+
+bool ReadsUndefined(const Module& module) {
+  return std::any_of(module.code.begin(), module.code.end(), [](const Instruction& i) { return i.op == spv::OpUndef; });
 }
 
 }  // namespace shaderc

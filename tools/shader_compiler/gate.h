@@ -13,4 +13,7 @@ void GateSource(const Module&);
 // outside a geometry shader, and again the built-ins, lest the optimiser made one.
 void GateOptimized(const Module&, rhi::Stage);
 
+// A value that no path has set. Not always a fault: a loop may set it before its first use.
+bool ReadsUndefined(const Module&);
+
 }  // namespace shaderc

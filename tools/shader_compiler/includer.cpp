@@ -1,7 +1,6 @@
 #include "includer.h"
 
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "error.h"
@@ -12,13 +11,23 @@ namespace {
 
 constexpr size_t kMaxIncludeDepth = 64;  // a file that includes itself without a guard
 
+// "#  include <x>" -> "include<x>": the directive without its blanks; empty for other lines.
+std::string Directive(const std::string& line) {
+  std::string text;
+  for (const char c : line)
+    if (c != ' ' && c != '\t') text += c;
+  return text.starts_with("#") ? text.substr(1) : std::string();
+}
+
 void CheckSource(const std::string& file, const std::string& text) {
-  static const std::regex pragmaOnce(R"(^\s*#\s*pragma\s+once\b)");
   std::istringstream in(text);
   std::string line;
-  for (uint32_t n = 1; std::getline(in, line); ++n)
-    if (std::regex_search(line, pragmaOnce))
+  for (uint32_t n = 1; std::getline(in, line); ++n) {
+    const std::string directive = Directive(line);
+    if (directive.starts_with("pragmaonce"))
       throw CompileError({file, n}, "#pragma once has no effect here; use an include guard");
+    if (directive.starts_with("include<")) throw CompileError({file, n}, "#include <> is not supported; write \"\"");
+  }
 }
 
 }  // namespace
@@ -46,11 +55,6 @@ Includer::IncludeResult* Includer::includeLocal(const char* header, const char* 
   auto* text = new std::string(ReadSource(*path));
   files_.insert(path->string());
   return new IncludeResult(path->string(), text->data(), text->size(), text);
-}
-
-// Refused instead of ignored, so that "x" and <x> cannot come to mean different files.
-Includer::IncludeResult* Includer::includeSystem(const char* header, const char* includer, size_t) {
-  throw CompileError({includer, 0}, "#include <" + std::string(header) + "> is not supported; write \"" + header + "\"");
 }
 
 void Includer::releaseInclude(IncludeResult* result) {

@@ -1,24 +1,24 @@
 // #include "x": relative to the including file, then the -I directories. Remembers every file for the depfile.
 #pragma once
 
+#include <glslang/Public/ShaderLang.h>
+
 #include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include <glslang/Public/ShaderLang.h>
-
 namespace shaderc {
 
-// The whole file; throws CompileError when it cannot be read or holds what glslang 12 silently ignores (#pragma once).
+// The whole file; throws CompileError when it cannot be read or holds what glslang 12 silently ignores (#pragma once)
+// or what we leave out (#include <>).
 std::string ReadSource(const std::filesystem::path&);
 
 class Includer : public glslang::TShader::Includer {
  public:
   explicit Includer(std::vector<std::string> dirs) : dirs_(std::move(dirs)) {}
   IncludeResult* includeLocal(const char* header, const char* includer, size_t depth) override;
-  IncludeResult* includeSystem(const char* header, const char* includer, size_t depth) override;
   void releaseInclude(IncludeResult*) override;
   const std::set<std::string>& Files() const { return files_; }
 

@@ -7,24 +7,20 @@
 namespace shaderc {
 namespace {
 
-struct Semantic {
-  std::string name;
-  uint32_t index = 0;
-};
-
 // The locations of the semantics that may pass between stages. Every driver has 16, most have 32.
 struct Block {
   const char* name;
   uint32_t first, count;
 };
-constexpr Block kBlocks[] = {{"TEXCOORD", 0, 16}, {"COLOR", 16, 4}, {"NORMAL", 20, 2}, {"TANGENT", 22, 2}, {"POSITION", 24, 2}};
+constexpr Block kBlocks[] = {
+    {"TEXCOORD", 0, 16}, {"COLOR", 16, 4}, {"NORMAL", 20, 2}, {"TANGENT", 22, 2}, {"POSITION", 24, 2}};
 
 struct Variable {
   uint32_t id, type, storage;  // type: what the pointer points to
 };
 
 struct Interface {
-  std::map<uint32_t, Semantic> semantics;
+  const Semantics& semantics;
   std::map<uint32_t, uint32_t*> locations;  // into the module
   std::vector<Variable> variables;          // Input and Output
   std::map<uint32_t, spv::Op> typeOps;
@@ -45,13 +41,11 @@ void ReadTypes(const Instruction& i, Interface& out, std::map<uint32_t, uint32_t
   if (i.op == spv::OpTypePointer) pointee[i.words[0]] = i.words[2];
 }
 
-Interface Read(Module& module) {
-  Interface out;
+Interface Read(Module& module, const Semantics& semantics) {
+  Interface out{.semantics = semantics};
   std::map<uint32_t, uint32_t> pointee;
   for (Instruction& i : module.code) {
     ReadTypes(i, out, pointee);
-    if (i.op == spv::OpDecorateString && i.words[1] == spv::DecorationUserSemantic)
-      out.semantics[i.words[0]] = Split(ReadString(i.words, 2));
     if (i.op == spv::OpDecorate && i.words[1] == spv::DecorationLocation) out.locations[i.words[0]] = &i.words[2];
     if (i.op == spv::OpVariable && (i.words[2] == spv::StorageClassInput || i.words[2] == spv::StorageClassOutput))
       out.variables.push_back({i.words[1], pointee[i.words[0]], i.words[2]});
@@ -72,8 +66,9 @@ void RequireOneLocation(const Interface& all, const Variable& v, bool perVertex)
 uint32_t LocationOf(const Semantic& s) {
   for (const Block& b : kBlocks)
     if (s.name == b.name && s.index < b.count) return b.first + s.index;
-  throw CompileError("semantic '" + s.name + std::to_string(s.index) +
-                     "' cannot pass between stages; use TEXCOORD0..15, COLOR0..3, NORMAL0..1, TANGENT0..1 or POSITION0..1");
+  throw CompileError(
+      "semantic '" + s.name + std::to_string(s.index) +
+      "' cannot pass between stages; use TEXCOORD0..15, COLOR0..3, NORMAL0..1, TANGENT0..1 or POSITION0..1");
 }
 
 void Locate(Interface& all, spv::StorageClass storage, bool perVertex) {
@@ -92,9 +87,34 @@ void Locate(Interface& all, spv::StorageClass storage, bool perVertex) {
 
 }  // namespace
 
-std::vector<VertexInput> ReadVertexInputs(const Module& module) {
+namespace {
+
+// glslang 12 turns it into an undefined value.
+void RefuseCoverageInput(const Module& module, const Semantics& semantics) {
+  for (const auto& [id, semantic] : semantics)
+    if (semantic.name == "SV_COVERAGE" && module.FindVariable(id)->words[2] == spv::StorageClassInput)
+      throw CompileError("SV_Coverage cannot be an input; Direct3D 10 has it as an output only");
+}
+
+}  // namespace
+
+Semantics TakeSemantics(Module& module) {
+  Semantics semantics;
+  for (const Instruction& i : module.code)
+    if (i.op == spv::OpDecorateString && i.words[1] == spv::DecorationUserSemantic)
+      semantics[i.words[0]] = Split(ReadString(i.words, 2));
+  RefuseCoverageInput(module, semantics);
+  module.RemoveIf([](const Instruction& i) {
+    if (i.op == spv::OpDecorateString || i.op == spv::OpMemberDecorateString) return true;
+    if (i.op == spv::OpDecorateId && i.words[1] == spv::DecorationHlslCounterBufferGOOGLE) return true;
+    return i.op == spv::OpExtension && ReadString(i.words, 0).starts_with("SPV_GOOGLE_");
+  });
+  return semantics;
+}
+
+std::vector<VertexInput> ReadVertexInputs(const Module& module, const Semantics& semantics) {
   Module copy = module;
-  const Interface all = Read(copy);
+  const Interface all = Read(copy, semantics);
   std::vector<VertexInput> inputs;
   for (const Variable& v : all.variables) {
     const auto at = all.locations.find(v.id);
@@ -108,8 +128,8 @@ std::vector<VertexInput> ReadVertexInputs(const Module& module) {
   return inputs;
 }
 
-void LocateBySemantic(Module& module, rhi::Stage stage) {
-  Interface all = Read(module);
+void LocateBySemantic(Module& module, const Semantics& semantics, rhi::Stage stage) {
+  Interface all = Read(module, semantics);
   const bool geometry = stage == rhi::Stage::Geometry;
   if (geometry || stage == rhi::Stage::Pixel) Locate(all, spv::StorageClassInput, geometry);
   if (geometry || stage == rhi::Stage::Vertex) Locate(all, spv::StorageClassOutput, false);

@@ -1,10 +1,10 @@
 // fur_shaderc: HLSL entry point in, C++ file out. See options.h for the command line, rhi/shader.h for what comes out.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstring>
 #include <iostream>
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "emit.h"
 #include "error.h"
@@ -26,20 +26,19 @@ void Print(const CompileError& error, const std::string& input) {
   }
 }
 
-Module ToOptimizedModule(const Options& options, Includer& includer) {
+Module ToOptimizedModule(const Options& options, Includer& includer, Semantics& semantics) {
   Module module(CompileHlsl(options, includer));
   GateSource(module);
   Validate(module, false);
+  semantics = TakeSemantics(module);
   RelaxImageFormats(module);
+  ForbidFolding(module);
   Module optimized = Optimize(module);
+  AllowFolding(optimized);
   GateOptimized(optimized, options.stage);
+  if (ReadsUndefined(optimized))
+    std::cerr << options.input << ": warning: " << options.entry << " reads a value that is never set\n";
   return optimized;
-}
-
-void AddInterface(Module& module, rhi::Stage stage, Reflection& r) {
-  if (stage == rhi::Stage::Vertex) r.inputs = ReadVertexInputs(module);
-  LocateBySemantic(module, stage);
-  StripSemantics(module);
 }
 
 void Dump(const Options& options, const std::vector<uint32_t>& spirv, const std::string& glsl) {
@@ -50,14 +49,16 @@ void Dump(const Options& options, const std::vector<uint32_t>& spirv, const std:
 
 void Compile(const Options& options) {
   Includer includer(options.includeDirs);
-  Module module = ToOptimizedModule(options, includer);
-  Reflection tables;
-  AddInterface(module, options.stage, tables);
-  tables.usesVertexId = SubtractBase(module, spv::BuiltInVertexIndex, spv::BuiltInBaseVertex);
+  Semantics semantics;
+  Module module = ToOptimizedModule(options, includer, semantics);
+  const bool vertex = options.stage == rhi::Stage::Vertex;
+  const std::vector<VertexInput> inputs = vertex ? ReadVertexInputs(module, semantics) : std::vector<VertexInput>{};
+  LocateBySemantic(module, semantics, options.stage);
+  const bool usesVertexId = SubtractBase(module, spv::BuiltInVertexIndex, spv::BuiltInBaseVertex);
   StripLines(module);
   GlslResult glsl = SpirvToGlsl(module.Words(), options.stage);
-  glsl.reflection.inputs = tables.inputs;
-  glsl.reflection.usesVertexId = tables.usesVertexId;
+  glsl.reflection.inputs = inputs;
+  glsl.reflection.usesVertexId = usesVertexId;
   // After the GLSL is made: gl_InstanceID is without the base already.
   glsl.reflection.usesInstanceId = SubtractBase(module, spv::BuiltInInstanceIndex, spv::BuiltInBaseInstance);
   AssignSets(module, options.stage);
@@ -81,9 +82,10 @@ int RunGuarded(const Options& options) {
 }
 
 int ReportCrash(const Options& options, int signal) {
-  std::cerr << options.input << ": error: the compiler crashed (" << strsignal(signal) << ") on entry " << options.entry
-            << "; glslang does so on two geometry shaders with different outputs in one file: put each in a file of its "
-               "own, or #if one out\n";
+  std::cerr
+      << options.input << ": error: the compiler crashed (" << strsignal(signal) << ") on entry " << options.entry
+      << "; glslang does so on two geometry shaders with different outputs in one file: put each in a file of its "
+         "own, or #if one out\n";
   return 1;
 }
 

@@ -34,7 +34,8 @@ void Complete(Options& o) {
 }  // namespace
 
 const char* Usage() {
-  return "usage: fur_shaderc --stage vs|gs|ps|cs --entry NAME --symbol NAME --namespace NAME [--name TEXT] [-I DIR]...\n"
+  return "usage: fur_shaderc --stage vs|gs|ps|cs --entry NAME --symbol NAME --namespace NAME [--name TEXT] [-I "
+         "DIR]...\n"
          "                   [-D NAME[=VALUE]]... [--depfile FILE] [--dump-spirv FILE] [--dump-glsl FILE] -o OUT.cpp "
          "INPUT.hlsl";
 }
@@ -48,19 +49,23 @@ Options ParseOptions(const std::vector<std::string>& args) {
   Options o;
   std::string stage;
   const std::map<std::string, std::string*> single{
-      {"--stage", &stage},           {"--entry", &o.entry},     {"--name", &o.name}, {"--symbol", &o.symbol},
-      {"--namespace", &o.nameSpace}, {"--depfile", &o.depfile}, {"-o", &o.output},   {"--dump-spirv", &o.dumpSpirv},
-      {"--dump-glsl", &o.dumpGlsl}};
+      {"--stage", &stage},     {"--entry", &o.entry},          {"--name", &o.name},
+      {"--symbol", &o.symbol}, {"--namespace", &o.nameSpace},  {"--depfile", &o.depfile},
+      {"-o", &o.output},       {"--dump-spirv", &o.dumpSpirv}, {"--dump-glsl", &o.dumpGlsl}};
   const std::map<std::string, std::vector<std::string>*> many{{"-I", &o.includeDirs}, {"-D", &o.defines}};
   for (size_t i = 0; i < args.size(); ++i) {
     const auto one = single.find(args[i]);
     const auto list = many.find(args[i]);
     const bool isOption = one != single.end() || list != many.end();
     if (isOption && i + 1 == args.size()) throw CompileError(args[i] + " needs a value");
-    if (one != single.end()) *one->second = args[++i];
-    else if (list != many.end()) list->second->push_back(args[++i]);
-    else if (args[i].starts_with("-") || !o.input.empty()) throw CompileError("unknown argument '" + args[i] + "'\n" + Usage());
-    else o.input = args[i];
+    if (one != single.end())
+      *one->second = args[++i];
+    else if (list != many.end())
+      list->second->push_back(args[++i]);
+    else if (args[i].starts_with("-") || !o.input.empty())
+      throw CompileError("unknown argument '" + args[i] + "'\n" + Usage());
+    else
+      o.input = args[i];
   }
   Complete(o);
   o.stage = ParseStage(stage);

@@ -12,8 +12,8 @@ struct Options {
   rhi::Stage stage = rhi::Stage::Vertex;
   std::string entry, name, symbol, nameSpace, input, output, depfile;
   std::vector<std::string> includeDirs;
-  std::vector<std::string> defines;        // NAME or NAME=VALUE
-  std::string dumpSpirv, dumpGlsl;         // optional files for people and tests
+  std::vector<std::string> defines;  // NAME or NAME=VALUE
+  std::string dumpSpirv, dumpGlsl;   // optional files for people and tests
 };
 
 const char* Usage();

@@ -44,22 +44,26 @@ class Reflector {
 
   void RefuseOthers() const {
     if (!all_.sampled_images.empty())
-      throw CompileError("'" + Name(all_.sampled_images[0]) + "' is a texture and sampler in one; declare a Texture2D and a SamplerState");
+      throw CompileError("'" + Name(all_.sampled_images[0]) +
+                         "' is a texture and sampler in one; declare a Texture2D and a SamplerState");
     if (!all_.subpass_inputs.empty() || !all_.push_constant_buffers.empty() || !all_.atomic_counters.empty())
       throw CompileError("subpass inputs, push constants and counters are not supported");
   }
 
   uint8_t Slot(const spirv_cross::Resource& r, const Range& range) const {
     const std::string name = Name(r);
-    if (name == "$Global") throw CompileError("a global variable is outside every cbuffer; move it into one, or make it static const");
-    if (!c_.get_type(r.type_id).array.empty()) throw CompileError("'" + name + "' is an array of resources; declare each by itself");
+    if (name == "$Global")
+      throw CompileError("a global variable is outside every cbuffer; move it into one, or make it static const");
+    if (!c_.get_type(r.type_id).array.empty())
+      throw CompileError("'" + name + "' is an array of resources; declare each by itself");
     if (!c_.has_decoration(r.id, spv::DecorationBinding))
       throw CompileError("'" + name + "' has no register; write ': register(" + range.letter + "N)'");
     if (c_.get_decoration(r.id, spv::DecorationDescriptorSet) != 0)
       throw CompileError("'" + name + "' names a space or a set; they are given by the stage");
     const uint32_t binding = c_.get_decoration(r.id, spv::DecorationBinding);
     if (binding < range.first || binding - range.first >= range.count)
-      throw CompileError("'" + name + "' is not in " + range.letter + "0.." + range.letter + std::to_string(range.count - 1));
+      throw CompileError("'" + name + "' is not in " + range.letter + "0.." + range.letter +
+                         std::to_string(range.count - 1));
     return uint8_t(binding - range.first);
   }
 
@@ -80,7 +84,8 @@ class Reflector {
     if (image.dim == spv::Dim2D && !image.ms) return rhi::TextureDim::Tex2DArray;
     if (image.dim == spv::DimCube && !image.arrayed) return rhi::TextureDim::TexCube;
     if (image.dim == spv::Dim3D) return rhi::TextureDim::Tex3D;
-    throw CompileError("'" + name + "' is of a kind that the RHI lacks; it has Texture2D, Texture2DArray, TextureCube, "
+    throw CompileError("'" + name +
+                       "' is of a kind that the RHI lacks; it has Texture2D, Texture2DArray, TextureCube, "
                        "Texture3D, Texture2DMS and structured buffers");
   }
 
@@ -91,17 +96,20 @@ class Reflector {
 
   void AddTexture(const spirv_cross::Resource& r) {
     const SPIRType& type = c_.get_type(r.base_type_id);
-    out_.resources.push_back({rhi::ShaderResourceKind::Texture, Slot(r, kT), Dim(type, Name(r)), IsInteger(type), 0, Name(r), r.id});
+    out_.resources.push_back(
+        {rhi::ShaderResourceKind::Texture, Slot(r, kT), Dim(type, Name(r)), IsInteger(type), 0, Name(r), r.id});
   }
 
   void RequireCompute(const std::string& name) const {
-    if (stage_ != rhi::Stage::Compute) throw CompileError("'" + name + "' is a u register; only compute shaders have them");
+    if (stage_ != rhi::Stage::Compute)
+      throw CompileError("'" + name + "' is a u register; only compute shaders have them");
   }
 
   void AddImage(const spirv_cross::Resource& r) {
     RequireCompute(Name(r));
     const SPIRType& type = c_.get_type(r.base_type_id);
-    out_.resources.push_back({rhi::ShaderResourceKind::RWTexture, Slot(r, kU), Dim(type, Name(r)), IsInteger(type), 0, Name(r), r.id});
+    out_.resources.push_back(
+        {rhi::ShaderResourceKind::RWTexture, Slot(r, kU), Dim(type, Name(r)), IsInteger(type), 0, Name(r), r.id});
   }
 
   void AddBuffer(const spirv_cross::Resource& r) {
@@ -110,8 +118,9 @@ class Reflector {
     const uint32_t stride = c_.type_struct_member_array_stride(block, 0);
     CheckElement(c_, c_.get_type(c_.get_type(block.member_types[0]).parent_type), stride, Name(r));
     if (!readOnly) RequireCompute(Name(r));
-    out_.resources.push_back({readOnly ? rhi::ShaderResourceKind::StructuredBuffer : rhi::ShaderResourceKind::RWStructuredBuffer,
-                              Slot(r, readOnly ? kT : kU), rhi::TextureDim::Tex2D, false, stride, Name(r), r.id});
+    out_.resources.push_back(
+        {readOnly ? rhi::ShaderResourceKind::StructuredBuffer : rhi::ShaderResourceKind::RWStructuredBuffer,
+         Slot(r, readOnly ? kT : kU), rhi::TextureDim::Tex2D, false, stride, Name(r), r.id});
   }
 
   void Sort() {
@@ -126,7 +135,8 @@ class Reflector {
     RefuseSharedSlots(out_.samplers, 's');
     for (size_t i = 1; i < out_.resources.size(); ++i) {
       const Resource &a = out_.resources[i - 1], &b = out_.resources[i];
-      const bool sameLetter = (a.kind >= rhi::ShaderResourceKind::RWTexture) == (b.kind >= rhi::ShaderResourceKind::RWTexture);
+      const bool sameLetter =
+          (a.kind >= rhi::ShaderResourceKind::RWTexture) == (b.kind >= rhi::ShaderResourceKind::RWTexture);
       if (sameLetter && a.slot == b.slot) throw CompileError("'" + a.name + "' and '" + b.name + "' share a register");
     }
   }

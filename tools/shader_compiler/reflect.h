@@ -33,7 +33,7 @@ struct Reflection {
   std::vector<ConstantBuffer> constantBuffers;  // each list is sorted by slot
   std::vector<Resource> resources;              // t registers, then u registers
   std::vector<Sampler> samplers;
-  std::vector<rhi::ShaderTexturePair> pairs;    // filled in by SpirvToGlsl, which finds them
+  std::vector<rhi::ShaderTexturePair> pairs;  // filled in by SpirvToGlsl, which finds them
   std::vector<VertexInput> inputs;
   rhi::PrimitiveTopology gsInput = rhi::PrimitiveTopology::TriangleList;
   uint32_t gsMaxVertices = 0, gsOutputComponents = 0;

@@ -6,10 +6,9 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <spirv.hpp>
 #include <string>
 #include <vector>
-
-#include <spirv.hpp>
 
 #include "error.h"
 
@@ -28,10 +27,10 @@ class Module {
   uint32_t NewId() { return header_[3]++; }
   uint32_t IdBound() const { return header_[3]; }
   void RemoveIf(const std::function<bool(const Instruction&)>&);
-  void InsertCapability(spv::Capability);        // once
-  void InsertDecoration(Instruction);            // among the other decorations
-  void InsertGlobal(Instruction);                // after the types and global variables
-  void AddToInterface(uint32_t variable);        // of the entry point
+  void InsertCapability(spv::Capability);                   // once
+  void InsertDecoration(Instruction);                       // among the other decorations
+  void InsertGlobal(Instruction);                           // after the types and global variables
+  void AddToInterface(uint32_t variable);                   // of the entry point
   std::optional<uint32_t> FindBuiltIn(spv::BuiltIn) const;  // the variable decorated with it
   const Instruction* FindVariable(uint32_t id) const;
   std::map<uint32_t, std::string> Names() const;  // OpName

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-
 #include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
 
@@ -20,6 +19,26 @@ Where PlaceOf(const std::vector<Where>& places, size_t instruction) {
   return instruction >= 1 && instruction <= places.size() ? places[instruction - 1] : Where{};
 }
 
+bool IsNoContraction(const Instruction& i) {
+  return i.op == spv::OpDecorate && i.words[1] == spv::DecorationNoContraction;
+}
+
+bool IsFloatArithmetic(spv::Op op) {
+  switch (op) {
+    case spv::OpFNegate:
+    case spv::OpFAdd:
+    case spv::OpFSub:
+    case spv::OpFMul:
+    case spv::OpFDiv:
+    case spv::OpFRem:
+    case spv::OpFMod:
+    case spv::OpVectorTimesScalar:
+    case spv::OpMatrixTimesScalar:
+    case spv::OpExtInst: return true;
+    default: return false;
+  }
+}
+
 bool IsImageRead(spv::Op op) { return op == spv::OpImageRead || op == spv::OpImageTexelPointer; }
 
 // Ids of the OpTypeImage types whose images are read. Images are loaded first: load -> variable -> pointer -> type.
@@ -28,7 +47,8 @@ std::set<uint32_t> ReadImageTypes(const Module& module) {
   std::set<uint32_t> types;
   for (const Instruction& i : module.code) {
     if (i.op == spv::OpTypePointer) pointee[i.words[0]] = i.words[2];
-    if (i.op == spv::OpLoad || i.op == spv::OpVariable || i.op == spv::OpFunctionParameter || i.op == spv::OpAccessChain)
+    if (i.op == spv::OpLoad || i.op == spv::OpVariable || i.op == spv::OpFunctionParameter ||
+        i.op == spv::OpAccessChain)
       typeOf[i.words[1]] = i.words[0];
     if (!IsImageRead(i.op)) continue;
     const uint32_t type = typeOf[i.words[2]];
@@ -44,10 +64,31 @@ bool IsSingle32(uint32_t format) {
 void RelaxFormat(Instruction& type, bool read, bool& relaxed) {
   uint32_t& format = type.words[7];
   if (read && !IsSingle32(format))
-    throw CompileError("a typed UAV (RWTexture) that is read must be of float, int or uint; this is Direct3D's rule too");
+    throw CompileError(
+        "a typed UAV (RWTexture) that is read must be of float, int or uint; this is Direct3D's rule too");
   if (read) return;
   format = spv::ImageFormatUnknown;
   relaxed = true;
+}
+
+// Legalisation leaves local copies of vectors behind; a second round of the same kind takes them out.
+void RegisterPasses(spvtools::Optimizer& optimizer) {
+  optimizer.RegisterPass(spvtools::CreateRemoveDuplicatesPass());  // RelaxImageFormats can make two types one
+  optimizer.RegisterLegalizationPasses();
+  optimizer.RegisterPass(spvtools::CreateScalarReplacementPass())
+      .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+      .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+      .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+      .RegisterPass(spvtools::CreateSimplificationPass())
+      .RegisterPass(spvtools::CreateAggressiveDCEPass())
+      .RegisterPass(spvtools::CreateLocalMultiStoreElimPass())
+      .RegisterPass(spvtools::CreateSimplificationPass())
+      .RegisterPass(spvtools::CreateVectorDCEPass())
+      .RegisterPass(spvtools::CreateDeadInsertElimPass())
+      .RegisterPass(spvtools::CreateRedundancyEliminationPass())
+      .RegisterPass(spvtools::CreateAggressiveDCEPass())
+      .RegisterPass(spvtools::CreateBlockMergePass())
+      .RegisterPass(spvtools::CreateCFGCleanupPass());
 }
 
 uint32_t AddBuiltIn(Module& module, spv::BuiltIn builtIn, uint32_t pointerType) {
@@ -84,36 +125,41 @@ void Validate(const Module& module, bool legalised) {
   std::vector<Problem> problems;
   spvtools::SpirvTools tools(kTarget);
   tools.SetMessageConsumer([&](spv_message_level_t level, const char*, const spv_position_t& at, const char* text) {
-    if (level <= SPV_MSG_ERROR) problems.push_back({PlaceOf(places, at.index), "invalid SPIR-V: " + FirstLine(text)});
+    if (level <= SPV_MSG_ERROR) problems.emplace_back(PlaceOf(places, at.index), "invalid SPIR-V: " + FirstLine(text));
   });
   spvtools::ValidatorOptions options;
   spvValidatorOptionsSetBeforeHlslLegalization(options, !legalised);
   const std::vector<uint32_t> words = module.Words();
   const bool ok = tools.Validate(words.data(), words.size(), options);
-  if (!ok && problems.empty()) problems.push_back({{}, "invalid SPIR-V"});
+  if (!ok && problems.empty()) problems.emplace_back(Where{}, "invalid SPIR-V");
   ThrowIfAny(std::move(problems));
 }
+
+void ForbidFolding(Module& module) {
+  std::vector<uint32_t> ids;
+  for (const Instruction& i : module.code) {
+    if (IsNoContraction(i))
+      throw CompileError("'precise' has no effect: sums are kept as they are written; leave it out");
+    if (IsFloatArithmetic(i.op)) ids.push_back(i.words[1]);
+  }
+  for (const uint32_t id : ids) module.InsertDecoration({spv::OpDecorate, {id, spv::DecorationNoContraction}});
+}
+
+void AllowFolding(Module& module) { module.RemoveIf(IsNoContraction); }
 
 Module Optimize(const Module& module) {
   std::vector<Problem> problems;
   spvtools::Optimizer optimizer(kTarget);
   optimizer.SetMessageConsumer([&](spv_message_level_t level, const char*, const spv_position_t&, const char* text) {
-    if (level <= SPV_MSG_ERROR) problems.push_back({{}, "spirv-opt: " + FirstLine(text)});
+    if (level <= SPV_MSG_ERROR) problems.emplace_back(Where{}, "spirv-opt: " + FirstLine(text));
   });
-  optimizer.RegisterPass(spvtools::CreateRemoveDuplicatesPass());  // RelaxImageFormats can make two types one
-  optimizer.RegisterLegalizationPasses();
-  optimizer.RegisterPass(spvtools::CreateRedundancyEliminationPass())
-      .RegisterPass(spvtools::CreateSimplificationPass())
-      .RegisterPass(spvtools::CreateVectorDCEPass())
-      .RegisterPass(spvtools::CreateAggressiveDCEPass())
-      .RegisterPass(spvtools::CreateBlockMergePass())
-      .RegisterPass(spvtools::CreateCFGCleanupPass());
+  RegisterPasses(optimizer);
   spvtools::OptimizerOptions options;
   options.set_run_validator(false);  // we validate before and after
   const std::vector<uint32_t> in = module.Words();
   std::vector<uint32_t> out;
   const bool ok = optimizer.Run(in.data(), in.size(), &out, options);
-  if (!ok && problems.empty()) problems.push_back({{}, "spirv-opt failed"});
+  if (!ok && problems.empty()) problems.emplace_back(Where{}, "spirv-opt failed");
   ThrowIfAny(std::move(problems));
   return Module(out);
 }
@@ -151,14 +197,6 @@ void StripLines(Module& module) {
   const std::set<spv::Op> ops{spv::OpLine,   spv::OpNoLine,          spv::OpSource,         spv::OpSourceContinued,
                               spv::OpString, spv::OpSourceExtension, spv::OpModuleProcessed};
   module.RemoveIf([&](const Instruction& i) { return ops.contains(i.op); });
-}
-
-void StripSemantics(Module& module) {
-  module.RemoveIf([](const Instruction& i) {
-    if (i.op == spv::OpDecorateString || i.op == spv::OpMemberDecorateString) return true;
-    if (i.op == spv::OpDecorateId && i.words[1] == spv::DecorationHlslCounterBufferGOOGLE) return true;
-    return i.op == spv::OpExtension && ReadString(i.words, 0).starts_with("SPV_GOOGLE_");
-  });
 }
 
 }  // namespace shaderc

@@ -9,6 +9,12 @@ namespace shaderc {
 // SPIRV-Tools' validator for Vulkan 1.1; throws with the HLSL line. Before legalisation some rules are relaxed.
 void Validate(const Module&, bool legalised);
 
+// spirv-opt 2023.1 folds a*b + c into one fma and rearranges constants, here in one shader and not in the next, which
+// computes the same position otherwise. NoContraction keeps it off; AllowFolding takes the marks away again, so that
+// both backends see plain operations. HLSL's own `precise` cannot be told from the marks and is refused.
+void ForbidFolding(Module&);
+void AllowFolding(Module&);
+
 // Inlines, legalises (textures and buffers passed to functions) and cleans up.
 Module Optimize(const Module&);
 
@@ -25,8 +31,5 @@ void AssignSets(Module&, rhi::Stage);
 
 // Line information and source text; names stay.
 void StripLines(Module&);
-
-// The decorations and extensions that carry the HLSL semantics.
-void StripSemantics(Module&);
 
 }  // namespace shaderc

@@ -1,7 +1,6 @@
 #include "spirv_to_glsl.h"
 
 #include <algorithm>
-
 #include <spirv_glsl.hpp>
 
 #include "error.h"
@@ -83,7 +82,8 @@ class Binder {
   std::vector<Pair> FindPairs() {
     std::vector<Pair> pairs;
     for (const auto& p : c_.get_combined_image_samplers())
-      pairs.push_back({{SlotOf(r_.resources, p.image_id, 0), SlotOf(r_.samplers, p.sampler_id, rhi::kNoSampler)}, p.combined_id});
+      pairs.push_back(
+          {{SlotOf(r_.resources, p.image_id, 0), SlotOf(r_.samplers, p.sampler_id, rhi::kNoSampler)}, p.combined_id});
     std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
       return std::pair(a.slots.texture, a.slots.sampler) < std::pair(b.slots.texture, b.slots.sampler);
     });

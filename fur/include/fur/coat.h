@@ -18,12 +18,12 @@ Result<FurVolume> LoadFurLayers(std::span<const std::filesystem::path> files);
 // wrap-around. Deterministic by seed on every machine. The top slice is empty.
 struct StrandParams {
   uint32_t size = 128, layers = 16;  // texels across the tile; slices
-  uint32_t underStrands = 900, overStrands = 260;
-  double underLength = 0.55, overLength = 1.0;   // mean, relative to the fur length
-  double underRadius = 0.55, overRadius = 0.95;  // texels, at the root
-  double taper = 0.8;
-  double bend = 0.12;   // sideways reach at the tip, in tiles
-  double spread = 0.5;  // 0: all strands bend along +u; 1: each its own way
+  uint32_t underStrands = 1500, overStrands = 520;
+  double underLength = 0.62, overLength = 0.92;   // mean, relative to the fur length
+  double underRadius = 0.8, overRadius = 1.15;  // texels, at the root
+  double taper = 0.75;
+  double bend = 0.07;   // sideways reach at the tip, in tiles
+  double spread = 0.6;  // 0: all strands bend along +u; 1: each its own way
   uint32_t seed = 1;
 };
 FurVolume GrowStrands(const StrandParams& params);

@@ -15,8 +15,9 @@ namespace fur {
 inline constexpr uint32_t kMaxImageSide = 16384;
 inline constexpr uint64_t kMaxImagePixels = uint64_t{1} << 26;  // 8192 x 8192, 256 MiB decoded
 
-// Reads PNG or JPEG (whatever else stb_image knows is read too) as RGBA8; missing alpha reads as 255, grey is repeated, 16 bit becomes 8.
-// Image::name is the file's name without its folder. Errors: InputMissing, InputMalformed; both name the file.
+// Reads PNG or JPEG (whatever else stb_image knows is read too) as RGBA8; missing alpha reads as 255, grey is repeated,
+// 16 bit becomes 8. Image::name is the file's name without its folder. Errors: InputMissing, InputMalformed; both name
+// the file.
 Result<Image> ReadImage(const std::filesystem::path& file);
 
 // The same from the bytes of a file. `name` becomes Image::name, `where` starts the message of an error.

@@ -34,7 +34,11 @@ double SceneScale(const Bounds&);
 // demo's camera. Angles come from SplitMix64 (Steele, Lea, Flood 2014) seeded with 1. Lengths are times `scale`.
 std::vector<glm::dmat4> PlaceAnimals(uint32_t count, double scale);
 
-// A camera that shows all of `bounds` (after each placement) from the front left, a little above, with some air around.
+// A camera that just shows all `points` (world space, not empty) from the front left of an animal that looks along -Z, a
+// little above. `scale` as for PlaceAnimals: near and far plane.
+Camera FramePoints(const std::vector<glm::dvec3>& points, double fovY, double aspect, double scale);
+
+// The same for a box after each placement.
 Camera FrameBounds(const Bounds& bounds, const std::vector<glm::dmat4>& placements, double fovY, double aspect);
 
 // The camera turned about the target's vertical axis (`up`).

@@ -3,7 +3,7 @@
 cbuffer Frame : register(b0) { row_major float4x4 viewProj; float3 eye; float time; };
 cbuffer Pass : register(b1) { float4 passColor; float2 passScale; uint passFlags; uint passPad; };
 cbuffer Object : register(b2) { row_major float4x4 world; };
-cbuffer Draw : register(b3) { float shellHeight; float3 drawPad; float4 drawTable[3]; };
+cbuffer Draw : register(b3) { float shellHeight; float drawPad; float2 drawOffset; float4 drawTable[3]; };
 
 struct Varyings {
   float4 position : SV_Position;

@@ -1,0 +1,142 @@
+// Clears, resolves and mips: what GL does through framebuffers besides drawing.
+#include "context.h"
+
+namespace rhi_gl {
+
+using namespace backend;
+
+// Direct3D's clears and copies know no scissor, masks or discard. The next draw sets them again.
+void Context::OpenGates() {
+  Settle();
+  gl_.CloseClearGates();
+  dirty_ |= DirtyRaster | DirtyBlendFactor;
+}
+
+// The framebuffer that is drawn to where it shows the view, lest another one is bound for nothing.
+Context::ClearPlace Context::PlaceOf(const RenderTargetView& view) {
+  if (framebuffer_ && !(dirty_ & DirtyTargets) && framebuffer_->problem == MsgCode::None)
+    for (uint32_t i = 0; i < state_.targetCount; ++i)
+      if (state_.targets[i].get() == &view) return {framebuffer_->name, GLint(i)};
+  TargetSet set;
+  set.colors[0] = &view;
+  set.colorCount = 1;
+  return {core_.framebuffers.Get(set).name, 0};
+}
+
+void Context::ClearRenderTargetView(IRenderTargetView* target, const float rgba[4]) {
+  const auto* view = static_cast<const RenderTargetView*>(target);
+  if (!view) return Refuse(MsgCode::InvalidDesc, "", "ClearRenderTargetView", "the view is null");
+  OpenGates();
+  const ClearPlace place = PlaceOf(*view);
+  gl_.OpenColorMask(uint32_t(place.drawBuffer));
+  dirty_ |= DirtyBlend;
+  if (!GetFormatInfo(view->desc.format).isInteger) {
+    glClearNamedFramebufferfv(place.framebuffer, GL_COLOR, place.drawBuffer, rgba);
+    return;
+  }
+  GLuint integers[4];
+  std::transform(rgba, rgba + 4, integers, [](float f) { return f > 0 ? GLuint(f) : 0u; });
+  glClearNamedFramebufferuiv(place.framebuffer, GL_COLOR, place.drawBuffer, integers);
+}
+
+void Context::ClearDepthStencilView(IDepthStencilView* target, bool clearDepth, float depth, bool clearStencil,
+                                    uint8_t stencil) {
+  const auto* view = static_cast<const DepthStencilView*>(target);
+  if (!view) return Refuse(MsgCode::InvalidDesc, "", "ClearDepthStencilView", "the view is null");
+  OpenGates();
+  const bool bound = framebuffer_ && !(dirty_ & DirtyTargets) && state_.depthTarget.get() == view &&
+                     framebuffer_->problem == MsgCode::None;
+  TargetSet set;
+  set.depth = view;
+  const GLuint framebuffer = bound ? framebuffer_->name : core_.framebuffers.Get(set).name;
+  gl_.OpenDepthStencilMasks();
+  dirty_ |= DirtyDepthStencil;
+  const GLint stencilValue = stencil;
+  clearStencil = clearStencil && GetFormatInfo(view->desc.format).stencil;
+  if (clearDepth && clearStencil) {
+    glClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, depth, stencilValue);
+  } else if (clearDepth) {
+    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &depth);
+  } else if (clearStencil) {
+    glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &stencilValue);
+  }
+}
+
+namespace {
+
+// One mip and slice of a texture seen as `format`: a GL view of it exists as long as this.
+class FormatView {
+ public:
+  FormatView(const Texture& t, uint32_t subresource, Format format) {
+    const uint32_t mip = t.MipOf(subresource), slice = t.SliceOf(subresource);
+    attachment_ = {t.name, t.target, format, mip, slice, false};
+    if (format == t.Desc().format) return;
+    view_ = MakeGlView(t, format, mip, 1, slice, 1, &attachment_.target);
+    attachment_.texture = view_;
+    attachment_.level = attachment_.layer = 0;
+  }
+  ~FormatView() { glDeleteTextures(1, &view_); }
+  FormatView(const FormatView&) = delete;
+  FormatView& operator=(const FormatView&) = delete;
+  const Attachment& Get() const { return attachment_; }
+
+ private:
+  GLuint view_ = 0;
+  Attachment attachment_;
+};
+
+const char* WhyNotResolve(const Texture& dst, uint32_t dstSub, const Texture& src, uint32_t srcSub, Format format) {
+  if (dst.IsStaging() || src.IsStaging()) return "a staging texture cannot be resolved";
+  if (dstSub >= dst.SubresourceCount() || srcSub >= src.SubresourceCount()) return "a subresource does not exist";
+  if (src.Desc().dim != TextureDim::Tex2DMS || dst.Desc().sampleCount != 1)
+    return "the source must be multisampled and the destination not";
+  const MipLayout to = dst.Layout(dstSub), from = src.Layout(srcSub);
+  if (to.width != from.width || to.height != from.height) return "the sizes differ";
+  const Format family = ToLinear(format);
+  if (ToLinear(dst.Desc().format) != family || ToLinear(src.Desc().format) != family)
+    return "source, destination and format must be one format or its sRGB twin";
+  return GetFormatInfo(format).depth ? "depth cannot be resolved, as in Direct3D 10" : nullptr;
+}
+
+}  // namespace
+
+void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITexture* src, uint32_t srcSubresource,
+                                 Format format) {
+  const Texture *to = AsTexture(dst), *from = AsTexture(src);
+  if (!to || !from) return Refuse(MsgCode::InvalidDesc, "", "ResolveSubresource", "a texture is null");
+  if (format == Format::Unknown) format = from->Desc().format;
+  if (const char* why = WhyNotResolve(*to, dstSubresource, *from, srcSubresource, format))
+    return Refuse(MsgCode::FormatMismatch, to->Desc().name, "ResolveSubresource", why);
+  OpenGates();
+  const FormatView toView(*to, dstSubresource, format), fromView(*from, srcSubresource, format);
+  const MipLayout m = to->Layout(dstSubresource);
+  BlitPair().Blit(fromView.Get(), m.width, m.height, toView.Get(), m.width, m.height, GL_NEAREST);
+}
+
+void Context::GenerateMips(IShaderResourceView* target) {
+  const auto* view = static_cast<const ShaderResourceView*>(target);
+  if (!view || !view->texture)
+    return Refuse(MsgCode::InvalidDesc, "", "GenerateMips", "it needs a view of a texture");
+  const TextureDesc& desc = view->texture->Desc();
+  const FormatInfo& format = GetFormatInfo(desc.format);
+  if (!(desc.bind & Bind::RenderTarget))
+    return Refuse(MsgCode::WrongBindFlag, desc.name, "GenerateMips", "the texture needs Bind::RenderTarget");
+  if (format.isInteger || desc.sampleCount > 1)
+    return Refuse(MsgCode::FormatMismatch, desc.name, "GenerateMips", "the format cannot be filtered");
+  OpenGates();
+  if (desc.dim == TextureDim::Tex3D) {
+    glGenerateTextureMipmap(view->name);  // slices of a Tex3D are filtered too, which a blit cannot
+    return;
+  }
+  BlitPair pair;
+  for (uint32_t slice = 0; slice < view->desc.sliceCount; ++slice)
+    for (uint32_t mip = 1; mip < view->desc.mipCount; ++mip) {
+      const MipLayout from = GetMipLayout(desc, view->desc.firstMip + mip - 1),
+                      to = GetMipLayout(desc, view->desc.firstMip + mip);
+      // Each level from the one above; sRGB texels are averaged as linear light, since GL_FRAMEBUFFER_SRGB is on.
+      pair.Blit({view->name, view->target, view->desc.format, mip - 1, slice, false}, from.width, from.height,
+                {view->name, view->target, view->desc.format, mip, slice, false}, to.width, to.height, GL_LINEAR);
+    }
+}
+
+}  // namespace rhi_gl

@@ -1,0 +1,159 @@
+// Data from the CPU: Map, constants; and back: ReadBack.
+#include <cstring>
+
+#include "context.h"
+
+namespace rhi_gl {
+
+using namespace backend;
+
+void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) {
+  auto* buffer = static_cast<Buffer*>(target);
+  if (!buffer || !buffer->IsRingConstant() || size > buffer->Desc().byteWidth) [[unlikely]] {
+    Refuse(buffer && size > buffer->Desc().byteWidth ? MsgCode::OutOfBounds : MsgCode::MapMode,
+           buffer ? buffer->Desc().name : "", "UpdateConstants",
+           "it needs a dynamic constant buffer and at most its byteWidth of data");
+    return;
+  }
+  std::byte* slice = ring_.Rename(*buffer);
+  if (!slice) [[unlikely]]
+    return;
+  std::memcpy(slice, data, size);
+  stats_.ringBytes += size;
+  dirty_ |= buffer->boundSlots * DirtyConstantSlot;
+}
+
+void Context::MarkMoved(const Buffer& buffer) {
+  const Bind bind = buffer.Desc().bind;
+  dirty_ |= buffer.boundSlots * DirtyConstantSlot;
+  if (bind & Bind::VertexBuffer) dirty_ |= DirtyVertexBuffers;
+  if (bind & Bind::IndexBuffer) dirty_ |= DirtyIndexBuffer;
+  if (bind & Bind::ShaderResource) dirty_ |= 0xFu * DirtyResources;
+}
+
+Status Context::RefuseMap(const char* name, MsgCode code, const char* why) const {
+  log_.Report(Severity::Error, code, name, "Map: %s", why);
+  return Status::InvalidArg;
+}
+
+void Context::WaitForCopies(bool* touched) {
+  if (*touched) FinishAll();
+  *touched = false;
+}
+
+Status Context::MapBuffer(Buffer& b, MapMode mode, Mapped* out) {
+  const char* name = b.Desc().name;
+  const bool staging = b.GetUsage() == Usage::Staging, dynamic = b.GetUsage() == Usage::Dynamic;
+  const bool discard = mode == MapMode::WriteDiscard, write = discard || mode == MapMode::WriteNoOverwrite;
+  if (b.mapped) return RefuseMap(name, MsgCode::MapTwice, "the buffer is mapped already; call Unmap first");
+  if (!(dynamic && write) && !(staging && !write))
+    return RefuseMap(name, MsgCode::MapMode,
+                     "dynamic buffers take WriteDiscard and WriteNoOverwrite, staging ones Read and Write");
+  if (b.IsRingConstant() && !discard)
+    return RefuseMap(name, MsgCode::MapMode, "constant buffers take WriteDiscard only, as in Direct3D 10");
+  if (staging) WaitForCopies(&b.gpuTouched);
+  std::byte* data = b.data;
+  if (discard) {
+    data = b.IsRingConstant() ? ring_.Rename(b) : b.Rename();
+    stats_.ringBytes += b.Desc().byteWidth;
+    MarkMoved(b);
+  }
+  if (!data) return Status::OutOfMemory;
+  b.mapped = true;
+  *out = {data, b.Desc().byteWidth, b.Desc().byteWidth};
+  return Status::Ok;
+}
+
+Status Context::MapTexture(Texture& t, uint32_t subresource, MapMode mode, Mapped* out) {
+  const char* name = t.Desc().name;
+  if (!t.IsStaging() || (mode != MapMode::Read && mode != MapMode::Write))
+    return RefuseMap(name, MsgCode::MapMode, "textures are mapped with Usage::Staging only, for Read or Write");
+  if (subresource >= t.SubresourceCount())
+    return RefuseMap(name, MsgCode::SubresourceOutOfRange, "the subresource does not exist");
+  if (t.mapped[subresource]) return RefuseMap(name, MsgCode::MapTwice, "it is mapped already; call Unmap first");
+  WaitForCopies(&t.gpuTouched);
+  const MipLayout m = t.Layout(subresource);
+  std::byte* data = t.stagingData + t.StagingOffset(subresource);
+  if (t.Desc().format == Format::D24_UNorm_S8_UInt) DepthStencilFromGl(data, m.sliceBytes * m.depth / 4);
+  t.mapped[subresource] = true;
+  *out = {data, m.rowBytes, uint32_t(m.sliceBytes)};
+  return Status::Ok;
+}
+
+Status Context::Map(IResource* resource, uint32_t subresource, MapMode mode, Mapped* out) {
+  *out = {};
+  Settle();
+  if (Buffer* b = AsBuffer(resource)) return MapBuffer(*b, mode, out);
+  if (Texture* t = AsTexture(resource)) return MapTexture(*t, subresource, mode, out);
+  return RefuseMap("", MsgCode::InvalidDesc, "the resource is null");
+}
+
+void Context::Unmap(IResource* resource, uint32_t subresource) {
+  if (Buffer* b = AsBuffer(resource)) {
+    b->mapped = false;
+    return;
+  }
+  Texture* t = AsTexture(resource);
+  if (!t || subresource >= t->mapped.size() || !t->mapped[subresource]) return;
+  t->mapped[subresource] = false;
+  const MipLayout m = t->Layout(subresource);
+  if (t->Desc().format == Format::D24_UNorm_S8_UInt)
+    DepthStencilToGl(t->stagingData + t->StagingOffset(subresource), m.sliceBytes * m.depth / 4);
+}
+
+// --------------------------------------------------------------------------------------------------------- read-back
+
+namespace {
+
+const char* WhyNotRead(const Texture& t, uint32_t subresource, size_t capacity, uint32_t rowPitch) {
+  if (subresource >= t.SubresourceCount()) return "the subresource does not exist";
+  if (t.Desc().dim == TextureDim::Tex2DMS) return "a multisampled texture must be resolved first";
+  const MipLayout m = t.Layout(subresource);
+  if (rowPitch < m.rowBytes) return "rowPitch is less than a row";
+  const uint64_t rows = uint64_t(m.rows) * m.depth;
+  return (rows - 1) * rowPitch + m.rowBytes > capacity ? "the capacity is too small" : nullptr;
+}
+
+void CopyStagingRows(const Texture& t, uint32_t subresource, std::byte* out, uint32_t rowPitch) {
+  const MipLayout m = t.Layout(subresource);
+  const std::byte* from = t.stagingData + t.StagingOffset(subresource);
+  for (uint64_t row = 0; row < uint64_t(m.rows) * m.depth; ++row)
+    std::memcpy(out + row * rowPitch, from + row * m.rowBytes, m.rowBytes);
+  if (t.Desc().format != Format::D24_UNorm_S8_UInt || t.mapped[subresource]) return;
+  for (uint64_t row = 0; row < m.rows; ++row) DepthStencilFromGl(out + row * rowPitch, m.width);
+}
+
+}  // namespace
+
+Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch) {
+  const Texture* t = AsTexture(texture);
+  if (t && rowPitch == 0 && subresource < t->SubresourceCount()) rowPitch = t->Layout(subresource).rowBytes;
+  if (const char* why = t ? WhyNotRead(*t, subresource, capacity, rowPitch) : "the texture is null") {
+    Refuse(MsgCode::OutOfBounds, t ? t->Desc().name : "", "ReadBack", why);
+    return Status::InvalidArg;
+  }
+  Settle();
+  FinishAll();
+  if (t->IsStaging()) {
+    CopyStagingRows(*t, subresource, static_cast<std::byte*>(out), rowPitch);
+    return Status::Ok;
+  }
+  TexelBlock block;
+  MakeBlock(t->Desc(), t->MipOf(subresource), t->SliceOf(subresource), nullptr, &block);
+  Download(*t, block, out, rowPitch, rowPitch * t->Layout(subresource).rows);
+  return Status::Ok;
+}
+
+Status Context::ReadBack(IBuffer* buffer, uint32_t offset, uint32_t size, void* out) {
+  const Buffer* b = AsBuffer(buffer);
+  if (!b || offset > b->Desc().byteWidth || size > b->Desc().byteWidth - offset) {
+    Refuse(MsgCode::OutOfBounds, b ? b->Desc().name : "", "ReadBack", b ? "it reaches beyond the end" : "null buffer");
+    return Status::InvalidArg;
+  }
+  Settle();
+  FinishAll();
+  glGetNamedBufferSubData(b->name, GLintptr(uint64_t(b->offset) + offset), size, out);
+  return Status::Ok;
+}
+
+}  // namespace rhi_gl

@@ -1,0 +1,318 @@
+#include <bit>
+
+#include "context.h"
+
+namespace rhi_gl {
+namespace {
+
+using namespace backend;
+
+constexpr uint32_t kConstantSlots = 0xFu * DirtyConstantSlot;
+constexpr uint32_t kGraphicsStages = 0x7u;
+constexpr uint32_t kGraphicsRest = DirtyLayout | DirtyTopology | DirtyVertexBuffers | DirtyIndexBuffer | DirtyShaders |
+                                   DirtyConstants | DirtyRaster | DirtyViewports | DirtyScissors | DirtyBlend |
+                                   DirtyBlendFactor | DirtyDepthStencil | DirtyStencilRef | DirtyTargets |
+                                   kGraphicsStages * DirtyResources | kGraphicsStages * DirtySamplers | DirtyBarrier |
+                                   DirtyUnusable;
+constexpr uint32_t kGraphics = kGraphicsRest | kConstantSlots;
+
+constexpr std::array<GLenum, 9> kModes{GL_POINTS,
+                                       GL_LINES,
+                                       GL_LINE_STRIP,
+                                       GL_TRIANGLES,
+                                       GL_TRIANGLE_STRIP,
+                                       GL_LINES_ADJACENCY,
+                                       GL_LINE_STRIP_ADJACENCY,
+                                       GL_TRIANGLES_ADJACENCY,
+                                       GL_TRIANGLE_STRIP_ADJACENCY};
+
+bool IsStrip(PrimitiveTopology t) {
+  return t == PrimitiveTopology::LineStrip || t == PrimitiveTopology::TriangleStrip ||
+         t == PrimitiveTopology::LineStripAdj || t == PrimitiveTopology::TriangleStripAdj;
+}
+
+// The list that a strip is made of; what a geometry shader declares.
+PrimitiveTopology ListOf(PrimitiveTopology t) {
+  switch (t) {
+    case PrimitiveTopology::LineStrip: return PrimitiveTopology::LineList;
+    case PrimitiveTopology::TriangleStrip: return PrimitiveTopology::TriangleList;
+    case PrimitiveTopology::LineStripAdj: return PrimitiveTopology::LineListAdj;
+    case PrimitiveTopology::TriangleStripAdj: return PrimitiveTopology::TriangleListAdj;
+    default: return t;
+  }
+}
+
+const Shader* ShaderOf(const BoundState& state, Stage stage) {
+  return static_cast<const Shader*>(state.shaders[size_t(stage)].get());
+}
+
+TargetSet TargetsOf(const BoundState& state) {
+  TargetSet set;
+  set.colorCount = state.targetCount;
+  for (uint32_t i = 0; i < state.targetCount; ++i)
+    set.colors[i] = static_cast<const RenderTargetView*>(state.targets[i].get());
+  set.depth = static_cast<const DepthStencilView*>(state.depthTarget.get());
+  return set;
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------------------------------------------- the short way
+
+// The usual draw differs from the one before by its constants alone.
+inline bool Context::PrepareDraw() {
+  core_.EnterFast();
+  if (const uint32_t dirty = dirty_ & kGraphics) {
+    if (dirty & kGraphicsRest) return ApplyGraphics();
+    BindConstants(dirty / DirtyConstantSlot);
+  }
+  return true;
+}
+
+inline bool Context::PrepareIndexedDraw() {
+  if (!PrepareDraw()) return false;
+  if (hasIndices_) [[likely]]
+    return true;
+  ReportOnce(Severity::Error, MsgCode::IndexBufferMissing,
+             "an indexed draw without an index buffer is skipped; call IASetIndexBuffer");
+  return false;
+}
+
+inline const void* Context::IndexPointer(uint32_t startIndex) const {
+  return reinterpret_cast<const void*>(indexBase_ + (uint64_t(startIndex) << indexShift_));
+}
+
+void Context::Draw(uint32_t vertexCount, uint32_t startVertex) {
+  if (!PrepareDraw()) return;
+  if (usesVertexId_) SetFirstVertex(int32_t(startVertex));
+  ++stats_.draws;
+  glDrawArrays(mode_, GLint(startVertex), GLsizei(vertexCount));
+}
+
+void Context::DrawIndexed(uint32_t indexCount, uint32_t startIndex, int32_t baseVertex) {
+  if (!PrepareIndexedDraw()) return;
+  if (usesVertexId_) SetFirstVertex(0);
+  ++stats_.draws;
+  glDrawElementsBaseVertex(mode_, GLsizei(indexCount), indexType_, IndexPointer(startIndex), baseVertex);
+}
+
+void Context::DrawInstanced(uint32_t vertexCount, uint32_t instanceCount, uint32_t startVertex,
+                            uint32_t startInstance) {
+  if (!PrepareDraw()) return;
+  if (usesVertexId_) SetFirstVertex(int32_t(startVertex));
+  ++stats_.draws;
+  glDrawArraysInstancedBaseInstance(mode_, GLint(startVertex), GLsizei(vertexCount), GLsizei(instanceCount),
+                                    startInstance);
+}
+
+void Context::DrawIndexedInstanced(uint32_t indexCount, uint32_t instanceCount, uint32_t startIndex,
+                                   int32_t baseVertex, uint32_t startInstance) {
+  if (!PrepareIndexedDraw()) return;
+  if (usesVertexId_) SetFirstVertex(0);
+  ++stats_.draws;
+  glDrawElementsInstancedBaseVertexBaseInstance(mode_, GLsizei(indexCount), indexType_, IndexPointer(startIndex),
+                                                GLsizei(instanceCount), baseVertex, startInstance);
+}
+
+// --------------------------------------------------------------------------------------------------------- indirect
+
+const Buffer* Context::CheckIndirect(IBuffer* args, uint32_t offset, uint32_t size) {
+  const auto* buffer = static_cast<const Buffer*>(args);
+  const char* wrong = nullptr;
+  if (!buffer) {
+    wrong = "the argument buffer is null";
+  } else if (!(buffer->Desc().bind & Bind::IndirectArgs)) {
+    wrong = "the argument buffer was made without Bind::IndirectArgs";
+  } else if (offset % 4 != 0 || offset > buffer->Desc().byteWidth || size > buffer->Desc().byteWidth - offset) {
+    wrong = "the arguments lie beyond the buffer's end, or not at a multiple of 4 bytes";
+  }
+  if (!wrong) return buffer;
+  ReportOnce(Severity::Error, MsgCode::OutOfBounds, "an indirect call is skipped: %s", wrong);
+  return nullptr;
+}
+
+// Only the GPU knows the first vertex, so the GPU copies it to where the shader reads it.
+void Context::BindFirstVertexFrom(const Buffer& args, uint32_t offset) {
+  if (indirectFirst_ == 0) {
+    glCreateBuffers(1, &indirectFirst_);
+    glNamedBufferStorage(indirectFirst_, 16, nullptr, 0);
+  }
+  glCopyNamedBufferSubData(args.name, indirectFirst_, args.offset + offset, 0, sizeof(uint32_t));
+  glBindBufferRange(GL_UNIFORM_BUFFER, kGlDrawParametersBlock, indirectFirst_, 0, 16);
+  firstVertex_ = -1;
+}
+
+void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
+  const Buffer* buffer = CheckIndirect(args, offset, sizeof(DrawArgs));
+  if (!buffer || !PrepareDraw()) return;
+  if (usesVertexId_) BindFirstVertexFrom(*buffer, offset + uint32_t(offsetof(DrawArgs, startVertex)));
+  gl_.UseIndirect(buffer->uid, buffer->name);
+  ++stats_.draws;
+  glDrawArraysIndirect(mode_, reinterpret_cast<const void*>(uint64_t(buffer->offset) + offset));
+}
+
+// Indirect draws count indices from the start of GL's buffer, Direct3D from the offset it was bound with: they get a
+// copy that starts there.
+void Context::IndicesFromZero() {
+  auto* buffer = static_cast<Buffer*>(state_.indexBuffer.get());
+  const uint64_t bytes = buffer->Desc().byteWidth - state_.indexOffset;
+  if (scratchIndicesBytes_ < bytes) {
+    core_.Discard(NameKind::Buffer, scratchIndices_);
+    glCreateBuffers(1, &scratchIndices_);
+    glNamedBufferStorage(scratchIndices_, GLsizeiptr(bytes), nullptr, 0);
+    scratchIndicesUid_ = core_.NewUid();
+    scratchIndicesBytes_ = bytes;
+  }
+  glCopyNamedBufferSubData(buffer->name, scratchIndices_, GLintptr(indexBase_), 0, GLsizeiptr(bytes));
+  const auto* layout = static_cast<const InputLayout*>(state_.layout.get());
+  glVertexArrayElementBuffer(layout ? layout->array.name : emptyArray_.name, scratchIndices_);
+}
+
+void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
+  const Buffer* buffer = CheckIndirect(args, offset, sizeof(DrawIndexedArgs));
+  if (!buffer || !PrepareIndexedDraw()) return;
+  if (usesVertexId_) SetFirstVertex(0);
+  if (indexBase_ != 0) IndicesFromZero();
+  gl_.UseIndirect(buffer->uid, buffer->name);
+  ++stats_.draws;
+  glDrawElementsIndirect(mode_, indexType_, reinterpret_cast<const void*>(uint64_t(buffer->offset) + offset));
+  if (indexBase_ == 0) return;
+  auto* layout = static_cast<InputLayout*>(state_.layout.get());
+  (layout ? layout->array : emptyArray_).indexUid = kUnknownUid;
+  dirty_ |= DirtyIndexBuffer;
+}
+
+void Context::SetFirstVertex(int32_t first) {
+  if (first == firstVertex_) return;
+  firstVertex_ = first;
+  if (first == 0) {
+    glBindBufferRange(GL_UNIFORM_BUFFER, kGlDrawParametersBlock, core_.zeroBuffer, 0, 16);
+    return;
+  }
+  const Ring::Slice slice = ring_.Take(16);
+  if (!slice.data) return;
+  const int32_t block[4] = {first, 0, 0, 0};
+  std::copy(std::begin(block), std::end(block), reinterpret_cast<int32_t*>(slice.data));
+  glBindBufferRange(GL_UNIFORM_BUFFER, kGlDrawParametersBlock, slice.name, slice.offset, 16);
+}
+
+// ---------------------------------------------------------------------------------------------------- the long way
+
+bool Context::CheckInputs(const Shader& vs, const Shader* gs) {
+  const auto* layout = static_cast<const InputLayout*>(state_.layout.get());
+  if ((vs.inputMask & ~(layout ? layout->attributeMask : 0u)) != 0) {
+    ReportOnce(Severity::Error, MsgCode::LayoutMismatch, "a draw is skipped: %s reads inputs that the input layout %s",
+               vs.Name().c_str(), layout ? "was not made for" : "(none is set) does not give");
+    return false;
+  }
+  if (gs && gs->reflection.gsInput != ListOf(state_.topology)) {
+    ReportOnce(Severity::Error, MsgCode::TopologyMismatch, "a draw is skipped: %s takes %s, the topology is %s",
+               gs->Name().c_str(), ToString(gs->reflection.gsInput), ToString(state_.topology));
+    return false;
+  }
+  return true;
+}
+
+// Finds the framebuffer and the program; false, with a message, if nothing can be drawn.
+bool Context::CheckGraphics() {
+  if (dirty_ & DirtyTargets) framebuffer_ = &core_.framebuffers.Get(TargetsOf(state_));
+  if (framebuffer_->problem != MsgCode::None) {
+    ReportOnce(Severity::Error, framebuffer_->problem, "a draw is skipped: %s", framebuffer_->explanation.c_str());
+    return false;
+  }
+  const Shader *vs = ShaderOf(state_, Stage::Vertex), *gs = ShaderOf(state_, Stage::Geometry);
+  if (!vs) {
+    ReportOnce(Severity::Error, MsgCode::NoVertexShader, "a draw is skipped: no vertex shader is set");
+    return false;
+  }
+  if (dirty_ & DirtyShaders) {
+    bool made = false;
+    program_ = &core_.programs.Get(vs, gs, ShaderOf(state_, Stage::Pixel), &made);
+    ++stats_.pipelineLookups;
+    stats_.pipelineMisses += made;
+  }
+  if (program_->name != 0) return CheckInputs(*vs, gs);
+  ReportOnce(Severity::Error, MsgCode::ShaderRejected, "a draw is skipped: its shaders did not link");
+  return false;
+}
+
+bool Context::ApplyGraphics() {
+  if (dirty_ & DirtyBarrier) Barrier();
+  if (!CheckGraphics()) {
+    dirty_ |= DirtyUnusable;
+    return false;
+  }
+  if (gl_.UseFramebuffer(framebuffer_->uid, framebuffer_->name)) ++stats_.passes;
+  ApplyProgram(*ShaderOf(state_, Stage::Vertex));
+  if (dirty_ & (DirtyLayout | DirtyVertexBuffers | DirtyIndexBuffer)) ApplyVertexArray();
+  ApplyOutput();
+  if (dirty_ & (DirtyConstants | kConstantSlots))
+    BindConstants(dirty_ & DirtyConstants ? 0xFu : (dirty_ & kConstantSlots) / DirtyConstantSlot);
+  dirty_ &= ~kGraphics;
+  return true;
+}
+
+void Context::ApplyProgram(const Shader& vs) {
+  if (dirty_ & DirtyTopology) {
+    mode_ = kModes[size_t(state_.topology)];
+    gl_.Set(GlState::StripCut, IsStrip(state_.topology));
+  }
+  gl_.UseProgram(program_->uid, program_->name);
+  usesVertexId_ = vs.reflection.usesVertexId;
+  for (uint32_t stage = 0; stage < uint32_t(Stage::Compute); ++stage) {
+    const uint32_t causes = DirtyShaders | DirtyResources << stage | DirtySamplers << stage;
+    const Shader* shader = ShaderOf(state_, Stage(stage));
+    if (shader && (dirty_ & causes)) BindStage(Stage(stage), *shader);
+  }
+}
+
+void Context::ApplyVertexArray() {
+  auto* layout = static_cast<InputLayout*>(state_.layout.get());
+  VertexArray& array = layout ? layout->array : emptyArray_;
+  gl_.UseVertexArray(array.uid, array.name);
+  for (uint32_t left = array.slotMask; left != 0; left &= left - 1) {
+    const uint32_t slot = uint32_t(std::countr_zero(left));
+    const VertexBufferBinding& b = state_.vertexBuffers[slot];
+    const auto* buffer = static_cast<const Buffer*>(b.buffer.get());
+    // What is not bound reads 0: from the buffer of zeros, without a stride.
+    const VertexArray::BoundBuffer wanted = buffer ? VertexArray::BoundBuffer{buffer->uid, buffer->offset + b.offset, b.stride}
+                                                   : VertexArray::BoundBuffer{0, 0, 0};
+    if (array.buffers[slot] == wanted) continue;
+    array.buffers[slot] = wanted;
+    glVertexArrayVertexBuffer(array.name, slot, buffer ? buffer->name : core_.zeroBuffer, GLintptr(wanted.offset),
+                              GLsizei(wanted.stride));
+  }
+  ApplyIndexBuffer(array);
+}
+
+void Context::ApplyIndexBuffer(VertexArray& array) {
+  const auto* buffer = static_cast<const Buffer*>(state_.indexBuffer.get());
+  hasIndices_ = buffer != nullptr;
+  if (!buffer) return;
+  const bool small = state_.indexFormat == Format::R16_UInt;
+  indexType_ = small ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT;
+  indexShift_ = small ? 1 : 2;
+  indexBase_ = uint64_t(buffer->offset) + state_.indexOffset;
+  if (array.indexUid == buffer->uid) return;
+  array.indexUid = buffer->uid;
+  glVertexArrayElementBuffer(array.name, buffer->name);
+}
+
+// Rasterizer and output merger.
+void Context::ApplyOutput() {
+  static const RasterizerDesc kRaster;
+  static const DepthStencilDesc kDepth;
+  static const BlendDesc kBlend;
+  if (dirty_ & DirtyRaster) gl_.SetRaster(state_.raster ? state_.raster->Desc() : kRaster);
+  if (dirty_ & DirtyViewports) gl_.SetViewports(state_.viewports.data(), state_.viewportCount);
+  if (dirty_ & DirtyScissors) gl_.SetScissors(state_.scissors.data(), state_.scissorCount);
+  if (dirty_ & (DirtyDepthStencil | DirtyStencilRef))
+    gl_.SetDepthStencil(state_.depthStencil ? state_.depthStencil->Desc() : kDepth, state_.stencilRef);
+  // Without a pixel shader colours stay as they are; GL would write whatever it finds.
+  if (dirty_ & (DirtyBlend | DirtyShaders))
+    gl_.SetBlend(state_.blend ? state_.blend->Desc() : kBlend, ShaderOf(state_, Stage::Pixel) != nullptr);
+  if (dirty_ & DirtyBlendFactor) gl_.SetBlendFactor(state_.blendFactor);
+  if (dirty_ & (DirtyBlendFactor | DirtyTargets)) gl_.SetSampleMask(state_.sampleMask, framebuffer_->samples);
+}
+
+}  // namespace rhi_gl

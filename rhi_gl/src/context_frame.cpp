@@ -1,0 +1,115 @@
+// The life of the context, frames, debug groups.
+#include <cstring>
+
+#include "context.h"
+
+namespace rhi_gl {
+
+using namespace backend;
+
+Context::Context(IDevice& device, const CorePtr& core, const DeviceDesc& desc)
+    : ContextBase(core->log),
+      device_(device),
+      corePtr_(core),
+      core_(*core),
+      ring_(*core, desc.ringPageBytes),
+      framesInFlight_(std::max(desc.framesInFlight, 1u)) {
+  glCreateVertexArrays(1, &emptyArray_.name);
+  emptyArray_.uid = core_.NewUid();
+  CreateSamplerState(core, SamplerDesc{}, &defaultSampler_);
+  CreateSamplerState(core, {.min = Filter::Point, .mag = Filter::Point, .mip = Filter::Point}, &loadSampler_);
+}
+
+// The other GL objects of the context end with it.
+Context::~Context() {
+  core_.Enter();
+  for (const Ref<Query>& q : activeQueries_)
+    if (q) q->EndGl();
+  ClearState();
+}
+
+void Context::ReportOnce(Severity severity, MsgCode code, const char* format, ...) {
+  uint64_t& frame = reported_[uint16_t(code)];
+  if (frame == core_.frames.Current()) return;
+  frame = core_.frames.Current();
+  char text[1024];
+  va_list args;
+  va_start(args, format);
+  std::vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  log_.Report(severity, code, "", "%s", text);
+}
+
+void Context::AfterFrame() {
+  if (ring_.Recycle()) dirty_ |= DirtyConstants;
+  firstVertex_ = -1;  // its slice of the ring may be used again
+  core_.Drain();
+}
+
+void Context::FinishAll() {
+  core_.Finish();
+  AfterFrame();
+}
+
+void Context::Flush() {
+  core_.Enter();
+  core_.Drain();
+  glFlush();
+}
+
+void Context::EndFrame() {
+  core_.Enter();
+  if (!core_.frames.EndFrame(framesInFlight_))
+    log_.Report(Severity::Error, MsgCode::DeviceLost, "", "the GPU does not finish its work; make the device anew");
+  AfterFrame();
+}
+
+Status Context::WaitIdle() {
+  core_.Enter();
+  FinishAll();
+  const bool lost = glGetGraphicsResetStatus() != GL_NO_ERROR;
+  if (lost) log_.Report(Severity::Error, MsgCode::DeviceLost, "", "the GPU was reset; make the device anew");
+  core_.Leave();  // so that another thread may go on with the device
+  return lost ? Status::DeviceLost : Status::Ok;
+}
+
+void Context::BeginEvent(const char* name) {
+  core_.Enter();
+  // GL's stack holds itself as its first entry; deeper groups are counted only.
+  if (++eventDepth_ >= core_.limits.maxDebugGroups) return;
+  const size_t length = std::min<size_t>(std::strlen(name), core_.limits.maxDebugMessage - 1);
+  glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, GLsizei(length), name);
+}
+
+void Context::EndEvent() {
+  core_.Enter();
+  if (eventDepth_ == 0) {
+    ReportOnce(Severity::Warning, MsgCode::QueryOrder, "EndEvent without a BeginEvent is ignored");
+    return;
+  }
+  if (eventDepth_-- < core_.limits.maxDebugGroups) glPopDebugGroup();
+}
+
+Status Context::Precache(const PipelineKeyDesc& key) {
+  core_.Enter();
+  const auto *vs = static_cast<const Shader*>(key.vs), *gs = static_cast<const Shader*>(key.gs),
+             *ps = static_cast<const Shader*>(key.ps);
+  const bool fit = vs && vs->stage == Stage::Vertex && (!gs || gs->stage == Stage::Geometry) &&
+                   (!ps || ps->stage == Stage::Pixel);
+  if (!fit) {
+    Refuse(MsgCode::NoVertexShader, "", "PrecachePipeline", "it needs a vertex shader, and each shader in its place");
+    return Status::InvalidArg;
+  }
+  bool made = false;
+  const Program& program = core_.programs.Get(vs, gs, ps, &made);
+  stats_.pipelineMisses += made;
+  return program.name ? Status::Ok : Status::CompileFailed;
+}
+
+Stats Context::GetStats(bool reset) {
+  const Stats result = stats_;
+  if (reset) stats_ = {};
+  return result;
+}
+
+}  // namespace rhi_gl

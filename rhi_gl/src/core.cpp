@@ -1,0 +1,148 @@
+#include "core.h"
+
+#include "debug.h"
+
+namespace rhi_gl {
+namespace {
+
+uint64_t NextDeviceId() {
+  static std::atomic<uint64_t> last{0};
+  return ++last;
+}
+
+// A draw that takes longer than this is taken for a lost device.
+constexpr GLuint64 kFenceTimeoutNs = 60'000'000'000;
+
+void DeleteName(NameKind kind, GLuint name) {
+  switch (kind) {
+    case NameKind::Buffer: glDeleteBuffers(1, &name); break;
+    case NameKind::Texture: glDeleteTextures(1, &name); break;
+    case NameKind::Sampler: glDeleteSamplers(1, &name); break;
+    case NameKind::Framebuffer: glDeleteFramebuffers(1, &name); break;
+    case NameKind::Program: glDeleteProgram(name); break;
+    case NameKind::Shader: glDeleteShader(name); break;
+    case NameKind::VertexArray: glDeleteVertexArrays(1, &name); break;
+    case NameKind::Query: glDeleteQueries(1, &name); break;
+  }
+}
+
+void ClearErrors() {
+  // A lost context reports its loss for ever.
+  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
+  }
+}
+
+}  // namespace
+
+bool FrameClock::Retire(bool wait) {
+  const Pending& p = pending_.front();
+  const GLenum result =
+      glClientWaitSync(p.fence, wait ? GL_SYNC_FLUSH_COMMANDS_BIT : 0u, wait ? kFenceTimeoutNs : 0);
+  if (result != GL_ALREADY_SIGNALED && result != GL_CONDITION_SATISFIED) return false;
+  completed_ = p.frame;
+  glDeleteSync(p.fence);
+  pending_.pop_front();
+  return true;
+}
+
+bool FrameClock::EndFrame(uint32_t framesInFlight) {
+  pending_.push_back({current_, glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)});
+  glFlush();
+  ++current_;
+  while (!pending_.empty() && Retire(false)) {
+  }
+  while (pending_.size() > framesInFlight)
+    if (!Retire(true)) return false;
+  return true;
+}
+
+void FrameClock::Finished() {
+  for (const Pending& p : pending_) glDeleteSync(p.fence);
+  pending_.clear();
+  completed_ = current_++;
+}
+
+Core::Core(const DeviceDesc& desc, const Caps& adapterCaps)
+    : log(desc.sink),
+      caps(adapterCaps),
+      framebuffers(*this),
+      programs(*this),
+      validation(desc.apiValidation),
+      id_(NextDeviceId()) {}
+
+Core::~Core() {
+  Enter();
+  Drain();
+  if (currentOnThisThread_ == id_) currentOnThisThread_ = 0;
+  egl.Destroy();
+}
+
+void Core::Start() {
+  currentOnThisThread_ = id_;
+  if (validation) InstallDebugCallback(*this);
+  glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+  glProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  glDisable(GL_DITHER);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const std::vector<std::byte> zeros(kMaxConstantBufferBytes);
+  glCreateBuffers(1, &zeroBuffer);
+  glNamedBufferStorage(zeroBuffer, GLsizeiptr(zeros.size()), zeros.data(), 0);
+}
+
+void Core::Enter() {
+  if (!egl.IsCurrent() && !egl.MakeCurrent())
+    log.Report(Severity::Error, MsgCode::DeviceLost, "",
+               "the GL context cannot be made current: it is still current on another thread; call WaitIdle there first");
+  currentOnThisThread_ = id_;
+}
+
+void Core::Leave() {
+  egl.Release();
+  currentOnThisThread_ = 0;
+}
+
+void Core::DiscardSync(GLsync sync) {
+  if (sync) deadSyncs_.push_back(sync);
+}
+
+void Core::Drain() {
+  for (const Dead& d : trash_) DeleteName(d.kind, d.name);
+  trash_.clear();
+  for (GLsync s : deadSyncs_) glDeleteSync(s);
+  deadSyncs_.clear();
+}
+
+void Core::BeginAllocation() {
+  Enter();
+  Drain();
+  ClearErrors();
+  allocating = true;
+}
+
+bool Core::EndAllocation() {
+  allocating = false;
+  return glGetError() != GL_OUT_OF_MEMORY;
+}
+
+Status Core::OutOfMemory(const char* name, const char* what) const {
+  log.Report(Severity::Error, MsgCode::OutOfMemory, name, "GL has no memory for this %s", what);
+  return Status::OutOfMemory;
+}
+
+void Core::Label(GLenum identifier, GLuint name, const char* label) {
+  if (!validation || name == 0 || !label || !*label) return;
+  Enter();
+  const size_t length = std::min<size_t>(std::char_traits<char>::length(label), limits.maxLabel - 1);
+  glObjectLabel(identifier, name, GLsizei(length), label);
+}
+
+void Core::Finish() {
+  Enter();
+  glFinish();
+  frames.Finished();
+}
+
+}  // namespace rhi_gl

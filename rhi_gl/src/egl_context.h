@@ -1,0 +1,51 @@
+// EGL: where contexts can be made, without a display server unless a native display is given; and one context.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rhi/types.h"
+
+namespace rhi_gl {
+
+// One place where a context can be made: an EGL device, the surfaceless platform, or a native display.
+struct EglPlace {
+  unsigned platform = 0;   // EGL_PLATFORM_DEVICE_EXT and the like
+  void* native = nullptr;  // what the platform asks for: an EGLDeviceEXT, nothing, an X11 Display
+  bool software = false;   // EGL says that it is a CPU rasteriser
+};
+
+// Hardware first.
+std::vector<EglPlace> ListEglPlaces(void* nativeDisplay);
+
+struct EglContextDesc {
+  int major = 4, minor = 5;  // 0.0: whatever the driver gives
+  bool debug = false;
+};
+
+// Owns an EGL context without a surface, and its share of the display.
+class EglContext {
+ public:
+  EglContext() = default;
+  EglContext(const EglContext&) = delete;
+  EglContext& operator=(const EglContext&) = delete;
+  ~EglContext() { Destroy(); }
+
+  // False, with the reason in *why.
+  bool Create(const EglPlace&, const EglContextDesc&, std::string* why);
+  void Destroy();
+  bool MakeCurrent();
+  void Release();  // no context is current on this thread afterwards
+  bool IsCurrent() const;
+  bool RobustAccess() const { return robust_; }
+
+ private:
+  bool OpenDisplay(const EglPlace&, std::string* why);
+
+  void* display_ = nullptr;  // EGLDisplay
+  void* context_ = nullptr;  // EGLContext
+  bool terminate_ = false;   // the display is counted and ends with its last context
+  bool robust_ = false;
+};
+
+}  // namespace rhi_gl

@@ -1,0 +1,49 @@
+// Linked programs, one for each set of shaders that was drawn with.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <string>
+#include <unordered_map>
+
+#include "rhi/types.h"
+
+namespace rhi_gl {
+
+class Core;
+class Shader;
+
+struct Program {
+  GLuint name = 0;  // 0: the driver refused to link it; a message said why
+  uint32_t uid = 0;
+  bool usesVertexId = false;
+};
+
+// Links shaders; 0 and the driver's log when it refuses.
+GLuint LinkProgram(std::initializer_list<const Shader*> shaders, std::string* log);
+
+class ProgramCache {
+ public:
+  explicit ProgramCache(Core& core) : core_(core) {}
+  ProgramCache(const ProgramCache&) = delete;
+  ProgramCache& operator=(const ProgramCache&) = delete;
+
+  // `gs` and `ps` may be null. *made: it was not there yet.
+  const Program& Get(const Shader* vs, const Shader* gs, const Shader* ps, bool* made);
+  void Forget(uint32_t shaderUid);
+
+ private:
+  using Key = std::array<uint32_t, 3>;
+  struct Hash {
+    size_t operator()(const Key& k) const {
+      return size_t(((uint64_t(k[0]) * 0x9E3779B1u + k[1]) * 0x85EBCA77u) ^ (uint64_t(k[2]) * 0xC2B2AE3Du));
+    }
+  };
+  Program Make(const Shader* vs, const Shader* gs, const Shader* ps);
+
+  Core& core_;
+  std::unordered_map<Key, Program, Hash> made_;
+};
+
+}  // namespace rhi_gl

@@ -1,0 +1,161 @@
+#include "states.h"
+
+namespace rhi_gl {
+namespace {
+
+// From Direct3D's numbers, which begin at 1, to GL's enums.
+template <class E, size_t N>
+GLenum Lookup(const std::array<GLenum, N>& table, E value) {
+  const size_t i = size_t(value) - 1;
+  return table[i < N ? i : 0];
+}
+
+bool InRange(uint32_t value, uint32_t last) { return value >= 1 && value <= last; }
+
+bool ValidFactor(Blend f) { return InRange(uint32_t(f), uint32_t(Blend::InvSrc1Alpha)); }
+bool ValidOp(BlendOp op) { return InRange(uint32_t(op), uint32_t(BlendOp::Max)); }
+bool Valid(Comparison c) { return InRange(uint32_t(c), uint32_t(Comparison::Always)); }
+bool Valid(AddressMode m) { return InRange(uint32_t(m), uint32_t(AddressMode::Border)); }
+
+bool Valid(const RenderTargetBlend& b) {
+  return ValidFactor(b.src) && ValidFactor(b.dest) && ValidFactor(b.srcAlpha) && ValidFactor(b.destAlpha) &&
+         ValidOp(b.op) && ValidOp(b.opAlpha);
+}
+
+bool Valid(const StencilFace& f) {
+  const auto op = [](StencilOp o) { return InRange(uint32_t(o), uint32_t(StencilOp::Decr)); };
+  return op(f.fail) && op(f.depthFail) && op(f.pass) && Valid(f.func);
+}
+
+Status Invalid(const Core& core, const char* what) {
+  core.log.Report(Severity::Error, MsgCode::InvalidDesc, "", "%s", what);
+  return Status::InvalidArg;
+}
+
+Status Lacking(const Core& core, const char* what) {
+  core.log.Report(Severity::Error, MsgCode::CapMissing, "", "%s", what);
+  return Status::Unsupported;
+}
+
+// The living object of an equal descriptor, or a new one.
+template <class State, class Desc, class Interface>
+Status Intern(const CorePtr& core, backend::Interner<Desc, State>& table, const Desc& desc, Ref<Interface>* out) {
+  Ref<State> state = table.Find(desc);
+  if (!state) {
+    state = Ref<State>::Adopt(new State(core, desc));
+    table.Remember(state.get());
+  }
+  *out = state;
+  return Status::Ok;
+}
+
+GLenum ToGl(AddressMode mode) {
+  constexpr std::array<GLenum, 4> kModes{GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_BORDER};
+  return Lookup(kModes, mode);
+}
+
+bool IsAnisotropic(const SamplerDesc& d) {
+  return d.min == Filter::Anisotropic || d.mag == Filter::Anisotropic || d.mip == Filter::Anisotropic;
+}
+
+// Direct3D's anisotropic filter is one for all three; minification then is linear in every way.
+GLenum MinFilter(const SamplerDesc& d) {
+  if (IsAnisotropic(d)) return GL_LINEAR_MIPMAP_LINEAR;
+  if (d.min == Filter::Point) return d.mip == Filter::Point ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_LINEAR;
+  return d.mip == Filter::Point ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR;
+}
+
+}  // namespace
+
+GLenum ToGl(Comparison func) {
+  constexpr std::array<GLenum, 8> kFuncs{GL_NEVER,   GL_LESS,     GL_EQUAL,  GL_LEQUAL,
+                                         GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS};
+  return Lookup(kFuncs, func);
+}
+
+GLenum ToGl(StencilOp op) {
+  constexpr std::array<GLenum, 8> kOps{GL_KEEP, GL_ZERO,   GL_REPLACE,   GL_INCR,
+                                       GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP};
+  return Lookup(kOps, op);
+}
+
+GLenum ToGl(BlendOp op) {
+  constexpr std::array<GLenum, 5> kOps{GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX};
+  return Lookup(kOps, op);
+}
+
+GLenum ToGl(Blend factor) {
+  constexpr std::array<GLenum, 17> kFactors{GL_ZERO,
+                                            GL_ONE,
+                                            GL_SRC_COLOR,
+                                            GL_ONE_MINUS_SRC_COLOR,
+                                            GL_SRC_ALPHA,
+                                            GL_ONE_MINUS_SRC_ALPHA,
+                                            GL_DST_ALPHA,
+                                            GL_ONE_MINUS_DST_ALPHA,
+                                            GL_DST_COLOR,
+                                            GL_ONE_MINUS_DST_COLOR,
+                                            GL_SRC_ALPHA_SATURATE,
+                                            GL_CONSTANT_COLOR,
+                                            GL_ONE_MINUS_CONSTANT_COLOR,
+                                            GL_SRC1_COLOR,
+                                            GL_ONE_MINUS_SRC1_COLOR,
+                                            GL_SRC1_ALPHA,
+                                            GL_ONE_MINUS_SRC1_ALPHA};
+  return Lookup(kFactors, factor);
+}
+
+SamplerState::SamplerState(const CorePtr& core, const SamplerDesc& desc) : core_(core), desc_(desc) {
+  core->Enter();
+  uid = core->NewUid();
+  glCreateSamplers(1, &name);
+  glSamplerParameteri(name, GL_TEXTURE_WRAP_S, GLint(ToGl(desc.u)));
+  glSamplerParameteri(name, GL_TEXTURE_WRAP_T, GLint(ToGl(desc.v)));
+  glSamplerParameteri(name, GL_TEXTURE_WRAP_R, GLint(ToGl(desc.w)));
+  glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GLint(MinFilter(desc)));
+  const bool point = desc.mag == Filter::Point && !IsAnisotropic(desc);
+  glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, point ? GL_NEAREST : GL_LINEAR);
+  glSamplerParameterf(name, GL_TEXTURE_LOD_BIAS, desc.mipBias);
+  glSamplerParameterf(name, GL_TEXTURE_MIN_LOD, desc.minLod);
+  glSamplerParameterf(name, GL_TEXTURE_MAX_LOD, desc.maxLod);
+  glSamplerParameterfv(name, GL_TEXTURE_BORDER_COLOR, desc.border.data());
+  if (desc.comparison) glSamplerParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glSamplerParameteri(name, GL_TEXTURE_COMPARE_FUNC, GLint(rhi_gl::ToGl(desc.func)));
+  if (IsAnisotropic(desc) && core->caps.samplerAnisotropy)
+    glSamplerParameterf(name, GL_TEXTURE_MAX_ANISOTROPY_EXT, float(desc.maxAniso));
+}
+
+SamplerState::~SamplerState() {
+  core_->samplerStates.Forget(this);
+  core_->Discard(NameKind::Sampler, name);
+}
+
+Status CreateBlendState(const CorePtr& core, const BlendDesc& desc, Ref<IBlendState>* out) {
+  for (const RenderTargetBlend& b : desc.rt)
+    if (!Valid(b)) return Invalid(*core, "a BlendDesc has a factor or operation that is none");
+  return Intern(core, core->blendStates, desc, out);
+}
+
+Status CreateDepthStencilState(const CorePtr& core, const DepthStencilDesc& desc, Ref<IDepthStencilState>* out) {
+  if (!Valid(desc.depthFunc) || !Valid(desc.front) || !Valid(desc.back))
+    return Invalid(*core, "a DepthStencilDesc has a comparison or operation that is none");
+  return Intern(core, core->depthStencilStates, desc, out);
+}
+
+Status CreateRasterizerState(const CorePtr& core, const RasterizerDesc& desc, Ref<IRasterizerState>* out) {
+  const bool valid = (desc.fill == FillMode::Solid || desc.fill == FillMode::Wireframe) &&
+                     InRange(uint32_t(desc.cull), uint32_t(CullMode::Back));
+  if (!valid) return Invalid(*core, "a RasterizerDesc has a fill or cull mode that is none");
+  if (desc.depthBiasClamp != 0 && !core->caps.depthBiasClamp)
+    return Lacking(*core, "RasterizerDesc::depthBiasClamp needs Caps::depthBiasClamp");
+  return Intern(core, core->rasterizerStates, desc, out);
+}
+
+Status CreateSamplerState(const CorePtr& core, const SamplerDesc& desc, Ref<ISamplerState>* out) {
+  if (!Valid(desc.u) || !Valid(desc.v) || !Valid(desc.w) || !Valid(desc.func))
+    return Invalid(*core, "a SamplerDesc has an address mode or comparison that is none");
+  if (desc.maxAniso < 1 || desc.maxAniso > 16) return Invalid(*core, "SamplerDesc::maxAniso must be 1 to 16");
+  return Intern(core, core->samplerStates, desc, out);
+}
+
+}  // namespace rhi_gl

@@ -1,0 +1,62 @@
+// Dispatches. They are few, so nothing is remembered from one to the next.
+#include "context.h"
+
+namespace rhi_vulkan {
+
+void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
+  if (x == 0 || y == 0 || z == 0 || !PrepareDispatch()) return;
+  vk_.vkCmdDispatch(cmd_, x, y, z);
+  EndDispatch();
+}
+
+void Context::DispatchIndirect(IBuffer* args, uint32_t offset) {
+  LeavePass();
+  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DispatchArgs));
+  if (!buffer || !PrepareDispatch()) return;
+  vk_.vkCmdDispatchIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset);
+  EndDispatch();
+}
+
+bool Context::PrepareDispatch() {
+  const auto* shader = static_cast<const Shader*>(state_.shaders[size_t(Stage::Compute)].get());
+  if (!shader) {
+    Report(Severity::Error, MsgCode::NothingBound, "", "dispatch without a compute shader; call CSSetShader; it is skipped");
+    return false;
+  }
+  if (core_->lost) return false;
+  LeavePass();
+  UseStageInputs(Stage::Compute, shader);
+  for (const ShaderResource& r : shader->reflection.resources) {
+    const bool writable = r.kind == ShaderResourceKind::RWTexture || r.kind == ShaderResourceKind::RWStructuredBuffer;
+    auto* view = writable ? static_cast<UavView*>(state_.uavs[r.slot].get()) : nullptr;
+    if (view && view->texture) Use(*view->texture, view->Range(), kStorageWrite);
+    if (view && view->buffer) Use(*view->buffer, kStorageWrite);
+    if (view || r.kind != ShaderResourceKind::RWTexture || core_->adapter.features.nullDescriptor) continue;
+    Report(Severity::Error, MsgCode::NothingBound, r.name,
+           "nothing is bound to a RWTexture register, and this driver has no null descriptors; the dispatch is skipped");
+    return false;
+  }
+  for (const Ref<IBuffer>& constants : state_.constants)
+    if (constants) Use(static_cast<Buffer&>(*constants), UniformRead(StageBits(Stage::Compute)));
+  RecordBarriers();
+
+  const std::array<VkDescriptorSet, 3> sets{
+      ConstantSet(), shader->layout->bindings.empty() ? VK_NULL_HANDLE : StageSet(Stage::Compute, *shader),
+      shader->uavLayout->bindings.empty() ? VK_NULL_HANDLE : UavSet(*shader)};
+  const std::array<uint32_t, kMaxConstantBuffers> offsets{constantSlices_[0]->offset, constantSlices_[1]->offset,
+                                                          constantSlices_[2]->offset, constantSlices_[3]->offset};
+  vk_.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, shader->compute);
+  for (uint32_t i = 0; i < sets.size(); ++i)
+    if (sets[i])
+      vk_.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, shader->computeLayout, i, 1, &sets[i],
+                                  i == 0 ? kMaxConstantBuffers : 0, offsets.data());
+  StartSegments(true);
+  return true;
+}
+
+void Context::EndDispatch() {
+  StopSegments();
+  ++stats_.dispatches;
+}
+
+}  // namespace rhi_vulkan

@@ -1,0 +1,247 @@
+// Draws: the short way (nothing changed, or only constants) and PrepareDraw.
+#include "context.h"
+
+namespace rhi_vulkan {
+namespace {
+
+// The topology that a geometry shader sees: strips are cut into their primitives.
+PrimitiveTopology ListOf(PrimitiveTopology topology) {
+  switch (topology) {
+    case PrimitiveTopology::LineStrip: return PrimitiveTopology::LineList;
+    case PrimitiveTopology::LineStripAdj: return PrimitiveTopology::LineListAdj;
+    case PrimitiveTopology::TriangleStrip: return PrimitiveTopology::TriangleList;
+    case PrimitiveTopology::TriangleStripAdj: return PrimitiveTopology::TriangleListAdj;
+    default: return topology;
+  }
+}
+
+// What a use of resources must look at again.
+constexpr uint32_t kDirtyInputs = kDirtyPass | kDirtyGraphicsResources | backend::DirtyShaders | backend::DirtyLayout |
+                                  backend::DirtyVertexBuffers | backend::DirtyIndexBuffer | backend::DirtyConstants;
+constexpr uint32_t kDirtyChecks = backend::DirtyShaders | backend::DirtyLayout | backend::DirtyTargets |
+                                  backend::DirtyViewports | backend::DirtyTopology;
+
+}  // namespace
+
+void Context::Draw(uint32_t vertexCount, uint32_t startVertex) {
+  if ((dirty_ & kDirtyDraw) && !PrepareDraw()) return;
+  vk_.vkCmdDraw(cmd_, vertexCount, 1, startVertex, 0);
+  ++stats_.draws;
+}
+
+void Context::DrawIndexed(uint32_t indexCount, uint32_t startIndex, int32_t baseVertex) {
+  if (!CheckIndexBuffer() || ((dirty_ & kDirtyDraw) && !PrepareDraw())) return;
+  vk_.vkCmdDrawIndexed(cmd_, indexCount, 1, startIndex, baseVertex, 0);
+  ++stats_.draws;
+}
+
+void Context::DrawInstanced(uint32_t vertexCountPerInstance, uint32_t instanceCount, uint32_t startVertex,
+                            uint32_t startInstance) {
+  if ((dirty_ & kDirtyDraw) && !PrepareDraw()) return;
+  vk_.vkCmdDraw(cmd_, vertexCountPerInstance, instanceCount, startVertex, startInstance);
+  ++stats_.draws;
+}
+
+void Context::DrawIndexedInstanced(uint32_t indexCountPerInstance, uint32_t instanceCount, uint32_t startIndex,
+                                   int32_t baseVertex, uint32_t startInstance) {
+  if (!CheckIndexBuffer() || ((dirty_ & kDirtyDraw) && !PrepareDraw())) return;
+  vk_.vkCmdDrawIndexed(cmd_, indexCountPerInstance, instanceCount, startIndex, baseVertex, startInstance);
+  ++stats_.draws;
+}
+
+void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
+  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawArgs));
+  if (!buffer || ((dirty_ & kDirtyDraw) && !PrepareDraw())) return;
+  vk_.vkCmdDrawIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset, 1, 0);
+  ++stats_.draws;
+}
+
+void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
+  if (!CheckIndexBuffer()) return;
+  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawIndexedArgs));
+  if (!buffer || ((dirty_ & kDirtyDraw) && !PrepareDraw())) return;
+  vk_.vkCmdDrawIndexedIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset, 1, 0);
+  ++stats_.draws;
+}
+
+bool Context::CheckIndexBuffer() {
+  if (state_.indexBuffer) [[likely]] return true;
+  Report(Severity::Error, MsgCode::IndexBufferMissing, "",
+         "indexed draw without an index buffer; call IASetIndexBuffer; it is skipped");
+  return false;
+}
+
+Buffer* Context::PrepareIndirect(IBuffer* args, uint32_t offset, uint32_t size) {
+  auto* buffer = static_cast<Buffer*>(args);
+  if (!buffer || !(buffer->Desc().bind & Bind::IndirectArgs)) {
+    Report(Severity::Error, MsgCode::WrongBindFlag, buffer ? buffer->Name().c_str() : "",
+           "indirect arguments need a buffer made with Bind::IndirectArgs; the call is skipped");
+    return nullptr;
+  }
+  if (offset % 4 != 0 || offset > buffer->Desc().byteWidth || size > buffer->Desc().byteWidth - offset) {
+    Report(Severity::Error, MsgCode::OutOfBounds, buffer->Name().c_str(),
+           "indirect arguments reach beyond the buffer, or the offset is no multiple of 4; the call is skipped");
+    return nullptr;
+  }
+  Use(*buffer, kIndirectRead);
+  RecordBarriers();
+  return buffer;
+}
+
+bool Context::PrepareDraw() {
+  if ((dirty_ & kDirtyDraw) == kDirtyOffsets) {
+    BindConstantOffsets();
+    return true;
+  }
+  if (core_->lost) return false;
+  if ((dirty_ & kDirtyChecks) && !CheckDraw()) return false;
+  PassTargets targets;
+  const bool newTargets = dirty_ & (backend::DirtyTargets | kDirtyPass);
+  if (newTargets && !GatherTargets(&targets)) return false;
+  if (newTargets && inPass_ && !(targets == pass_)) EndPass(false);
+  if (dirty_ & kDirtyInputs) UseInputs();
+  RecordBarriers();
+  if (!inPass_) {
+    if (!newTargets && !GatherTargets(&targets)) return false;
+    BeginPass(targets);
+  }
+  if ((dirty_ & kDirtyPipeline) && !BindPipeline()) return false;
+  ApplyDynamicState();
+  if (dirty_ & (backend::DirtyVertexBuffers | backend::DirtyLayout)) BindVertexBuffers();
+  if ((dirty_ & backend::DirtyIndexBuffer) && state_.indexBuffer) BindIndexBuffer();
+  if ((dirty_ & (kDirtyGraphicsResources | kDirtySets)) && !BindStageSets()) return false;
+  if ((dirty_ & (backend::DirtyConstants | kDirtyOffsets)) && !BindConstants()) return false;
+  dirty_ &= ~kDirtyDraw;
+  return true;
+}
+
+bool Context::CheckDraw() {
+  const auto* vs = static_cast<const Shader*>(state_.shaders[size_t(Stage::Vertex)].get());
+  const auto* gs = static_cast<const Shader*>(state_.shaders[size_t(Stage::Geometry)].get());
+  if (!vs) {
+    Report(Severity::Error, MsgCode::NoVertexShader, "", "draw without a vertex shader; call VSSetShader; it is skipped");
+    return false;
+  }
+  if (vs->reflection.inputs.size && !state_.layout) {
+    Report(Severity::Error, MsgCode::LayoutMismatch, vs->Name().c_str(),
+           "the vertex shader has inputs but no input layout is bound; call IASetInputLayout; the draw is skipped");
+    return false;
+  }
+  if (state_.viewportCount == 0) {
+    Report(Severity::Error, MsgCode::NothingBound, "", "draw without a viewport; call RSSetViewports; it is skipped");
+    return false;
+  }
+  return !gs || CheckGeometryInput(gs);
+}
+
+bool Context::CheckGeometryInput(const Shader* gs) {
+  if (ListOf(state_.topology) == gs->reflection.gsInput) return true;
+  char text[160];
+  std::snprintf(text, sizeof text, "the geometry shader takes %s but the topology is %s; the draw is skipped",
+                rhi::ToString(gs->reflection.gsInput), rhi::ToString(state_.topology));
+  Report(Severity::Error, MsgCode::TopologyMismatch, gs->Name().c_str(), text);
+  return false;
+}
+
+void Context::UseInputs() {
+  for (const Stage stage : {Stage::Vertex, Stage::Geometry, Stage::Pixel})
+    UseStageInputs(stage, static_cast<const Shader*>(state_.shaders[size_t(stage)].get()));
+  if (const auto* layout = static_cast<const InputLayout*>(state_.layout.get()))
+    for (uint32_t slot = 0; slot < kMaxVertexBuffers; ++slot)
+      if (auto* buffer = static_cast<Buffer*>(state_.vertexBuffers[slot].buffer.get());
+          buffer && (layout->slotMask >> slot & 1u))
+        Use(*buffer, kVertexRead);
+  if (state_.indexBuffer) Use(static_cast<Buffer&>(*state_.indexBuffer), kIndexRead);
+  for (const Ref<IBuffer>& constants : state_.constants)
+    if (constants) Use(static_cast<Buffer&>(*constants), UniformRead(constantStages_));
+}
+
+void Context::UseStageInputs(Stage stage, const Shader* shader) {
+  if (!shader) return;
+  for (const ShaderResource& r : shader->reflection.resources) {
+    auto* view = static_cast<ShaderView*>(state_.resources[size_t(stage)][r.slot].get());
+    if (!view) continue;
+    if (view->texture) {
+      Use(*view->texture, view->Range(), SampledRead(stage, GetFormatInfo(view->Desc().format).depth));
+    } else {
+      Use(*view->buffer, StorageRead(stage));
+    }
+  }
+}
+
+PipelineKey Context::CurrentKey() const {
+  const auto id = [](const auto* object) { return object ? object->id : 0u; };
+  const auto shader = [&](Stage s) { return id(static_cast<const Shader*>(state_.shaders[size_t(s)].get())); };
+  PipelineKey key;
+  key.vs = shader(Stage::Vertex);
+  key.gs = shader(Stage::Geometry);
+  key.ps = shader(Stage::Pixel);
+  key.layout = id(static_cast<const InputLayout*>(state_.layout.get()));
+  key.blend = id(static_cast<const BlendState*>(state_.blend.get()));
+  key.sampleMask = state_.sampleMask;
+  for (uint32_t i = 0; i < pass_.colorCount; ++i)
+    if (pass_.colors[i]) key.rtv[i] = pass_.colors[i]->Desc().format;
+  if (pass_.depth) key.dsv = pass_.depth->Desc().format;
+  key.topology = ClassOf(state_.topology);
+  key.rtvCount = uint8_t(pass_.colorCount);
+  key.samples = uint8_t(pass_.samples);
+  if (const auto* raster = static_cast<const RasterState*>(state_.raster.get())) {
+    key.wireframe = raster->Desc().fill == FillMode::Wireframe;
+    key.depthClip = raster->Desc().depthClip;
+  }
+  return key;
+}
+
+bool Context::BindPipeline() {
+  const PipelineKey key = CurrentKey();
+  if (pipeline_ && key == key_) return true;
+  ++stats_.pipelineLookups;
+  const auto shader = [&](Stage s) { return static_cast<Shader*>(state_.shaders[size_t(s)].get()); };
+  const auto* blend = static_cast<const BlendState*>(state_.blend.get());
+  const PipelineParts parts{shader(Stage::Vertex), shader(Stage::Geometry), shader(Stage::Pixel),
+                            static_cast<const InputLayout*>(state_.layout.get()), blend ? &blend->Desc() : nullptr};
+  const Pipeline& pipeline = core_->pipelines->Get(key, parts);
+  if (!pipeline.handle) {
+    Report(Severity::Error, MsgCode::ShaderRejected, parts.vs->Name().c_str(),
+           "the driver refused the pipeline of this draw; it is skipped");
+    pipeline_ = nullptr;
+    return false;
+  }
+  vk_.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+  if (!pipeline_ || pipeline_->layout != pipeline.layout) dirty_ |= kDirtySets;
+  pipeline_ = &pipeline;
+  key_ = key;
+  return true;
+}
+
+void Context::BindVertexBuffers() {
+  const auto* layout = static_cast<const InputLayout*>(state_.layout.get());
+  if (!layout || !layout->slotMask) return;
+  std::array<VkBuffer, kMaxVertexBuffers> handles;
+  std::array<VkDeviceSize, kMaxVertexBuffers> offsets, sizes, strides;
+  uint32_t count = 0;
+  for (uint32_t slot = 0; layout->slotMask >> slot; ++slot, ++count) {
+    const backend::VertexBufferBinding& b = state_.vertexBuffers[slot];
+    const auto* buffer = static_cast<const Buffer*>(b.buffer.get());
+    const bool inside = buffer && b.offset < buffer->Desc().byteWidth;
+    handles[slot] = inside ? buffer->Handle() : null_.zeros.handle;  // unbound: every vertex reads 0
+    offsets[slot] = inside ? buffer->Offset() + b.offset : 0;
+    sizes[slot] = inside ? buffer->Desc().byteWidth - b.offset : kMaxConstantBufferBytes;
+    strides[slot] = inside ? b.stride : 0;
+  }
+  vk_.vkCmdBindVertexBuffers2(cmd_, 0, count, handles.data(), offsets.data(), sizes.data(), strides.data());
+}
+
+void Context::BindIndexBuffer() {
+  const auto& buffer = static_cast<const Buffer&>(*state_.indexBuffer);
+  const bool is16 = state_.indexFormat == Format::R16_UInt;
+  const VkIndexType type = is16 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32;
+  if (state_.indexOffset >= buffer.Desc().byteWidth || state_.indexOffset % (is16 ? 2 : 4) != 0) {
+    Report(Severity::Error, MsgCode::OutOfBounds, buffer.Name().c_str(),
+           "the index buffer's offset is beyond its end or no multiple of the index size; its indices read 0");
+    return vk_.vkCmdBindIndexBuffer(cmd_, null_.zeros.handle, 0, type);
+  }
+  vk_.vkCmdBindIndexBuffer(cmd_, buffer.Handle(), buffer.Offset() + state_.indexOffset, type);
+}
+
+}  // namespace rhi_vulkan

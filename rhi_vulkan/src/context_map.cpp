@@ -1,0 +1,104 @@
+// CPU access: constants, dynamic buffers, staging.
+#include <cstring>
+
+#include "context.h"
+
+namespace rhi_vulkan {
+
+void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) {
+  auto* buffer = static_cast<Buffer*>(target);
+  if (!buffer || !(buffer->dirtyOnDiscard & kDirtyOffsets) || size > buffer->Desc().byteWidth) [[unlikely]]
+    return RejectUpdate(buffer, size);
+  if (!Discard(*buffer)) [[unlikely]]
+    return;
+  std::memcpy(buffer->slice.Data(), data, size);
+}
+
+void Context::RejectUpdate(const Buffer* buffer, uint32_t size) {
+  if (!buffer) return Report(Severity::Error, MsgCode::NothingBound, "", "UpdateConstants of no buffer");
+  char text[160];
+  std::snprintf(text, sizeof text, "UpdateConstants needs a Dynamic constant buffer of at least %u bytes; this has %u",
+                size, buffer->Desc().byteWidth);
+  Report(Severity::Error, size > buffer->Desc().byteWidth ? MsgCode::OutOfBounds : MsgCode::MapMode,
+         buffer->Name().c_str(), text);
+}
+
+// Gives the buffer fresh memory; draws already recorded keep the old.
+bool Context::Discard(Buffer& buffer) {
+  Slice fresh;
+  if (!ring_.Take(buffer.alignedWidth, &fresh)) [[unlikely]]
+    return false;
+  if (fresh.page != buffer.slice.page) [[unlikely]] {
+    ring_.Repin(buffer.slice.page, fresh.page);
+    dirty_ |= backend::DirtyConstants;  // another page: another descriptor
+  }
+  buffer.slice = fresh;
+  dirty_ |= buffer.dirtyOnDiscard;
+  stats_.ringBytes += buffer.alignedWidth;
+  return true;
+}
+
+Status Context::MapError(MsgCode code, const char* object, const char* text) {
+  log_.Report(Severity::Error, code, object, "%s", text);
+  return Status::InvalidArg;
+}
+
+Status Context::Map(IResource* resource, uint32_t subresource, MapMode mode, Mapped* out) {
+  if (!resource || !out) return Status::InvalidArg;
+  *out = {};
+  if (core_->lost) return Status::DeviceLost;
+  if (auto* buffer = AsBuffer(resource)) return MapBuffer(*buffer, mode, out);
+  return MapTexture(static_cast<Texture&>(*resource), subresource, mode, out);
+}
+
+Status Context::MapBuffer(Buffer& buffer, MapMode mode, Mapped* out) {
+  const char* name = buffer.Name().c_str();
+  if (buffer.mapped) return MapError(MsgCode::MapTwice, name, "the buffer is mapped already; call Unmap first");
+  const bool discard = mode == MapMode::WriteDiscard, append = mode == MapMode::WriteNoOverwrite;
+  if (buffer.GetUsage() == Usage::Immutable)
+    return MapError(MsgCode::ImmutableWrite, name, "an Immutable buffer cannot be mapped");
+  if (buffer.IsDynamic() != (discard || append) || (!buffer.IsDynamic() && buffer.GetUsage() != Usage::Staging))
+    return MapError(MsgCode::MapMode, name,
+                    "Dynamic buffers are mapped with WriteDiscard or WriteNoOverwrite, Staging ones with Read or Write");
+  if (discard && !Discard(buffer)) return Status::OutOfMemory;
+  if (buffer.IsDynamic()) {
+    out->data = buffer.slice.Data();
+  } else {
+    if (Status s = WaitForSerial(buffer.gpu.lastUse); s != Status::Ok) return s;
+    out->data = buffer.gpu.memory.mapped;
+  }
+  out->rowPitch = out->slicePitch = buffer.Desc().byteWidth;
+  buffer.mapped = true;
+  return Status::Ok;
+}
+
+Status Context::MapTexture(Texture& texture, uint32_t subresource, MapMode mode, Mapped* out) {
+  const char* name = texture.Name().c_str();
+  if (texture.GetUsage() == Usage::Immutable)
+    return MapError(MsgCode::ImmutableWrite, name, "an Immutable texture cannot be mapped");
+  if (!texture.IsStaging() || (mode != MapMode::Read && mode != MapMode::Write))
+    return MapError(MsgCode::MapMode, name, "only Staging textures are mapped, with Read or Write");
+  if (subresource >= texture.SubresourceCount())
+    return MapError(MsgCode::SubresourceOutOfRange, name, "Map of a subresource that the texture does not have");
+  if (texture.mapped[subresource])
+    return MapError(MsgCode::MapTwice, name, "the subresource is mapped already; call Unmap first");
+  if (Status s = WaitForSerial(texture.staging.lastUse); s != Status::Ok) return s;
+  const backend::MipLayout m = backend::GetMipLayout(texture.Desc(), texture.One(subresource).mip);
+  *out = {texture.staging.memory.mapped + texture.stagingOffset[subresource], m.rowBytes, uint32_t(m.sliceBytes)};
+  texture.mapped[subresource] = true;
+  return Status::Ok;
+}
+
+void Context::Unmap(IResource* resource, uint32_t subresource) {
+  if (!resource) return;
+  bool wasMapped = false;
+  if (auto* buffer = AsBuffer(resource)) {
+    wasMapped = std::exchange(buffer->mapped, false);
+  } else if (auto& texture = static_cast<Texture&>(*resource); subresource < texture.mapped.size()) {
+    wasMapped = texture.mapped[subresource];
+    texture.mapped[subresource] = false;
+  }
+  if (!wasMapped) MapError(MsgCode::MapMode, "", "Unmap of a resource that is not mapped");
+}
+
+}  // namespace rhi_vulkan

@@ -1,0 +1,177 @@
+// The context's life: batches of commands, submission, frames.
+#include <cstring>
+
+#include "context.h"
+#include "device.h"
+
+namespace rhi_vulkan {
+namespace {
+
+// More submissions than this in flight, and the oldest is waited for: a program that only calls Flush must not grow.
+constexpr size_t kMaxBatches = 16;
+
+void BeginCommands(const VolkDeviceTable& vk, VkCommandBuffer cmd) {
+  VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  vk.vkBeginCommandBuffer(cmd, &info);
+}
+
+}  // namespace
+
+Batch::~Batch() {
+  if (pool) core.vk.vkDestroyCommandPool(core.device, pool, nullptr);
+}
+
+Status Batch::Create() {
+  VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+  poolInfo.queueFamilyIndex = core.adapter.queueFamily;
+  Status s = core.Check(core.vk.vkCreateCommandPool(core.device, &poolInfo, nullptr, &pool), "", "vkCreateCommandPool");
+  if (s != Status::Ok) return s;
+  VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+  info.commandPool = pool;
+  info.commandBufferCount = 2;
+  std::array<VkCommandBuffer, 2> buffers{};
+  s = core.Check(core.vk.vkAllocateCommandBuffers(core.device, &info, buffers.data()), "", "vkAllocateCommandBuffers");
+  setup = buffers[0];
+  main = buffers[1];
+  return s;
+}
+
+Context::Context(VulkanDevice& device, std::shared_ptr<Core> core, uint32_t framesInFlight)
+    : ContextBase(core->log),
+      device_(device),
+      core_(std::move(core)),
+      vk_(core_->vk),
+      ring_(*core_->ring),
+      framesInFlight_(std::max(1u, framesInFlight)) {
+  constantSlices_.fill(&zeroSlice_);
+  constantStages_ = StageBits(Stage::Vertex) | StageBits(Stage::Pixel);
+  if (core_->adapter.caps.geometryShader) constantStages_ |= StageBits(Stage::Geometry);
+}
+
+Context::~Context() {
+  running_ = {};
+  active_ = {};
+  clears_.clear();
+  ContextBase::ClearState();
+  for (auto& views : null_.views)
+    for (VkImageView view : views)
+      if (view) vk_.vkDestroyImageView(core_->device, view, nullptr);
+  null_.zeros.Destroy(*core_);
+  null_.sink.Destroy(*core_);
+}
+
+Status Context::Init() {
+  constexpr VkBufferUsageFlags kUsage =
+      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+      VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+  for (GpuBuffer* buffer : {&null_.zeros, &null_.sink}) {
+    const Status s = buffer->Create(*core_, "rhi unbound", kMaxConstantBufferBytes, kUsage, MemoryKind::Upload);
+    if (s != Status::Ok) return s;
+    std::memset(buffer->memory.mapped, 0, kMaxConstantBufferBytes);
+  }
+  if (Status s = device_.CreateSamplerState({}, &null_.sampler); s != Status::Ok) return s;
+  return BeginBatch();
+}
+
+Status Context::BeginBatch() {
+  RecycleBatches();
+  if (!batch_) {
+    batch_ = std::make_unique<Batch>(*core_);
+    if (Status s = batch_->Create(); s != Status::Ok) return s;
+  }
+  batch_->serial = core_->recording;
+  batch_->setupBegun = false;
+  cmd_ = batch_->main;
+  BeginCommands(vk_, cmd_);
+  // A new command buffer knows no state.
+  dirty_ = backend::DirtyAll;
+  pipeline_ = nullptr;
+  boundLayouts_ = {};
+  boundSets_ = {};
+  constantSet_ = VK_NULL_HANDLE;
+  return Status::Ok;
+}
+
+void Context::RecycleBatches() {
+  if (inFlight_.size() >= kMaxBatches) core_->Wait(inFlight_.front()->serial);
+  core_->Collect();
+  if (inFlight_.empty() || inFlight_.front()->serial > core_->Completed()) return;
+  batch_ = std::move(inFlight_.front());
+  inFlight_.pop_front();
+  vk_.vkResetCommandPool(core_->device, batch_->pool, 0);
+  batch_->sets.Reset();
+}
+
+VkCommandBuffer Context::Setup() {
+  if (!batch_->setupBegun) BeginCommands(vk_, batch_->setup);
+  batch_->setupBegun = true;
+  return batch_->setup;
+}
+
+void Context::Flush() {
+  if (core_->lost) return;
+  EndPass(false);
+  FlushClears(nullptr);
+  RecordBarriers();
+  std::array<VkCommandBuffer, 2> commands{};
+  uint32_t count = 0;
+  if (batch_->setupBegun) commands[count++] = batch_->setup;
+  commands[count++] = batch_->main;
+  for (uint32_t i = 0; i < count; ++i) core_->Check(vk_.vkEndCommandBuffer(commands[i]), "", "vkEndCommandBuffer");
+  core_->Submit(count, commands.data());
+  inFlight_.push_back(std::move(batch_));
+  BeginBatch();
+}
+
+void Context::EndFrame() {
+  Flush();
+  reported_.clear();
+  frames_.push_back(core_->recording - 1);
+  if (frames_.size() <= framesInFlight_) return;
+  core_->Wait(frames_.front());
+  frames_.pop_front();
+}
+
+Status Context::Finish() {
+  Flush();
+  const Status s = core_->Wait(core_->recording - 1);
+  core_->Collect();
+  return s;
+}
+
+Status Context::WaitForSerial(uint64_t serial) {
+  if (serial == core_->recording) Flush();
+  return core_->Wait(serial);
+}
+
+void Context::Report(Severity severity, MsgCode code, const char* object, const char* text) {
+  if (std::find(reported_.begin(), reported_.end(), code) != reported_.end()) return;
+  reported_.push_back(code);
+  log_.Report(severity, code, object, "%s", text);
+}
+
+Stats Context::TakeStats(bool reset) {
+  Stats out = stats_;
+  out.pipelineMisses = core_->pipelines->made - pipelinesBefore_;
+  if (!reset) return out;
+  stats_ = {};
+  pipelinesBefore_ = core_->pipelines->made;
+  return out;
+}
+
+IDevice* Context::Device() { return &device_; }
+
+void Context::BeginEvent(const char* name) {
+  if (!core_->instance.vk.vkCmdBeginDebugUtilsLabelEXT) return;
+  VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+  label.pLabelName = name ? name : "";
+  core_->instance.vk.vkCmdBeginDebugUtilsLabelEXT(cmd_, &label);
+}
+
+void Context::EndEvent() {
+  if (core_->instance.vk.vkCmdEndDebugUtilsLabelEXT) core_->instance.vk.vkCmdEndDebugUtilsLabelEXT(cmd_);
+}
+
+}  // namespace rhi_vulkan

@@ -1,0 +1,112 @@
+#include "core.h"
+
+#include "descriptors.h"
+#include "pipeline.h"
+#include "queries.h"
+#include "states.h"
+
+namespace rhi_vulkan {
+
+Core::Core(IMessageSink* sink) : log(sink) {}
+
+Core::~Core() {
+  if (!device) return;
+  vk.vkDeviceWaitIdle(device);
+  closed_ = true;
+  queries.reset();
+  pipelines.reset();
+  layouts.reset();
+  ring.reset();
+  memory.reset();
+  if (timeline) vk.vkDestroySemaphore(device, timeline, nullptr);
+  vk.vkDestroyDevice(device, nullptr);
+}
+
+void Core::Retire(Retirable* object) noexcept {
+  if (closed_) {
+    delete object;
+  } else {
+    retired_.emplace_back(recording, object);
+  }
+}
+
+void Core::Collect() {
+  const uint64_t done = Completed();
+  // Deleting a view may retire its resource, which then goes to the back with the current serial.
+  while (!retired_.empty() && retired_.front().first <= done) {
+    Retirable* object = retired_.front().second;
+    retired_.pop_front();
+    delete object;
+  }
+  ring->Collect(done);
+}
+
+void Core::Close() {
+  closed_ = true;
+  while (!retired_.empty()) {
+    Retirable* object = retired_.front().second;
+    retired_.pop_front();
+    delete object;
+  }
+}
+
+uint64_t Core::Completed() {
+  if (lost) return recording - 1;  // nothing runs any more
+  uint64_t value = 0;
+  if (Check(vk.vkGetSemaphoreCounterValue(device, timeline, &value), "", "vkGetSemaphoreCounterValue") == Status::Ok)
+    completed_ = value;
+  return completed_;
+}
+
+Status Core::Submit(uint32_t count, const VkCommandBuffer* commands) {
+  if (lost) return Status::DeviceLost;
+  std::array<VkCommandBufferSubmitInfo, 2> infos{};
+  for (uint32_t i = 0; i < count; ++i) {
+    infos[i].sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+    infos[i].commandBuffer = commands[i];
+  }
+  VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+  signal.semaphore = timeline;
+  signal.value = recording;
+  signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.commandBufferInfoCount = count;
+  submit.pCommandBufferInfos = infos.data();
+  submit.signalSemaphoreInfoCount = 1;
+  submit.pSignalSemaphoreInfos = &signal;
+  const Status status = Check(vk.vkQueueSubmit2(queue, 1, &submit, VK_NULL_HANDLE), "", "vkQueueSubmit2");
+  if (status != Status::Ok) lost = true;  // the serial will never be signalled: nothing may wait for it
+  ring->OnSubmit(recording);
+  ++recording;
+  return status;
+}
+
+Status Core::Wait(uint64_t serial) {
+  if (lost) return Status::DeviceLost;
+  if (serial <= completed_) return Status::Ok;
+  VkSemaphoreWaitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
+  info.semaphoreCount = 1;
+  info.pSemaphores = &timeline;
+  info.pValues = &serial;
+  return Check(vk.vkWaitSemaphores(device, &info, UINT64_MAX), "", "vkWaitSemaphores");
+}
+
+Status Core::Check(VkResult result, const char* object, const char* what) {
+  if (result == VK_SUCCESS) return Status::Ok;
+  if (result == VK_ERROR_DEVICE_LOST) {
+    if (lost) return Status::DeviceLost;  // said once
+    lost = true;
+  }
+  return CheckResult(log, result, object, what);
+}
+
+void Core::SetName(VkObjectType type, uint64_t handle, const char* name) {
+  if (!instance.vk.vkSetDebugUtilsObjectNameEXT || !handle || !*name) return;
+  VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+  info.objectType = type;
+  info.objectHandle = handle;
+  info.pObjectName = name;
+  instance.vk.vkSetDebugUtilsObjectNameEXT(device, &info);
+}
+
+}  // namespace rhi_vulkan

@@ -1,0 +1,69 @@
+// Graphics pipelines, found by the ids of what they are made of. Viewports, scissors, the whole depth-stencil state,
+// culling, depth bias, topology within its class and vertex strides are dynamic and so not part of the key.
+#pragma once
+
+#include <unordered_map>
+
+#include "core.h"
+#include "states.h"
+
+namespace rhi_vulkan {
+
+enum class TopologyClass : uint8_t { Point, Line, Triangle, LineAdj, TriangleAdj };
+TopologyClass ClassOf(PrimitiveTopology);
+VkPrimitiveTopology ToVk(PrimitiveTopology);
+bool IsStrip(PrimitiveTopology);
+
+// Everything static. Compared and hashed as bytes: no padding, no pointers.
+struct PipelineKey {
+  uint32_t vs = 0, gs = 0, ps = 0;  // Shader::id
+  uint32_t layout = 0, blend = 0;   // 0: none
+  uint32_t sampleMask = ~0u;
+  std::array<Format, kMaxRenderTargets> rtv{};  // Unknown: no target there
+  Format dsv = Format::Unknown;
+  TopologyClass topology = TopologyClass::Triangle;
+  uint8_t rtvCount = 0, samples = 1;
+  uint8_t wireframe = 0, depthClip = 1, unused[2]{};
+  bool operator==(const PipelineKey&) const = default;
+};
+static_assert(sizeof(PipelineKey) == 6 * 4 + 8 + 8);
+
+// The objects behind the key, for the moment of creation. Null states: defaults.
+struct PipelineParts {
+  Shader *vs = nullptr, *gs = nullptr, *ps = nullptr;
+  const InputLayout* layout = nullptr;
+  const BlendDesc* blend = nullptr;
+};
+
+struct Pipeline {
+  VkPipeline handle = VK_NULL_HANDLE;  // null: the driver refused it
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  std::array<const SetLayout*, 3> sets{};  // of vertex, geometry and pixel shader; null: no such shader
+};
+
+class PipelineCache {
+ public:
+  explicit PipelineCache(Core& core) : core_(core) {}
+  ~PipelineCache();
+
+  Status Init(const void* blob, size_t size);
+  const Pipeline& Get(const PipelineKey&, const PipelineParts&);  // made if need be
+  void Forget(uint32_t shader);  // when a shader is destroyed: the GPU is past its pipelines
+  size_t Blob(void* out, size_t capacity);
+  VkPipelineCache Handle() const { return cache_; }
+
+  uint64_t made = 0;  // pipelines made so far; Stats::pipelineMisses
+
+ private:
+  struct Hash {
+    size_t operator()(const PipelineKey&) const;
+  };
+  Pipeline Make(const PipelineKey&, const PipelineParts&);
+  bool BlobFits(const void* blob, size_t size) const;
+
+  Core& core_;
+  VkPipelineCache cache_ = VK_NULL_HANDLE;
+  std::unordered_map<PipelineKey, Pipeline, Hash> pipelines_;
+};
+
+}  // namespace rhi_vulkan

@@ -1,0 +1,41 @@
+// What the program says about itself.
+#include "program.h"
+
+namespace app::test {
+namespace {
+
+TEST(Help, NamesTheCommands) {
+  const Outcome o = RunFur({"--help"});
+  ExpectSuccess(o);
+  for (const char* word : {"render", "info", "--version", "Exit codes"})
+    EXPECT_NE(o.out.find(word), std::string::npos) << word << " is not in:\n" << o.out;
+}
+
+TEST(Help, RenderNamesEveryFlag) {
+  const Outcome o = RunFur({"render", "--help"});
+  ExpectSuccess(o);
+  for (const char* flag : {"-o", "--output", "--backend", "--size", "--samples", "--technique", "--look", "--semantics", "--shells",
+                           "--eye", "--target", "--fov", "--count", "--repeat", "--stats", "--fur", "--validate", "--no-fins",
+                           "--no-shells", "MODEL"})
+    EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
+}
+
+TEST(Help, VersionIsOneLine) {
+  const Outcome o = RunFur({"--version"});
+  ExpectSuccess(o);
+  EXPECT_EQ(o.out.rfind("fur ", 0), 0u) << o.out;
+  EXPECT_EQ(std::count(o.out.begin(), o.out.end(), '\n'), 1);
+}
+
+TEST(Help, InfoListsAdaptersOfBothBackends) {
+  const Outcome o = RunFur({"info"});
+  ExpectSuccess(o);
+  for (const char* word : {"vulkan: ", "gl: ", "driver", "geometry shader"})
+    EXPECT_NE(o.out.find(word), std::string::npos) << word << " is not in:\n" << o.out;
+  EXPECT_EQ(o.out.find(": 0 adapters"), std::string::npos) << o.out;
+}
+
+TEST(Help, InfoTakesNoArguments) { ExpectFailure(RunFur({"info", "--nonsense"}), kUsage, {"--nonsense"}); }
+
+}  // namespace
+}  // namespace app::test

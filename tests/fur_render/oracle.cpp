@@ -1,0 +1,112 @@
+#include "oracle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fur::test {
+namespace {
+
+constexpr double kSeedPower = 10;
+
+// A texture's flat normal is not quite flat: 128 / 255 is not a half. The published shader reads it raw.
+glm::dvec3 SeedFlatNormal() {
+  const double off = 2 * 128 / 255.0 - 1;
+  return glm::normalize(glm::dvec3(off, -off, 1));  // green-up asset, green-down shader
+}
+
+glm::dvec3 Albedo(const SquareScene& s) {
+  glm::dvec3 raw(s.color[0] / 255.0, s.color[1] / 255.0, s.color[2] / 255.0);
+  return s.look == Look::Seed ? raw : glm::dvec3(Decode(raw.x), Decode(raw.y), Decode(raw.z));
+}
+
+// The strand's direction: the square's tangent frame is the world's.
+glm::dvec3 Strand(const SquareScene& s, const Texel& texel) {
+  const glm::dvec3 t = glm::dvec3(texel[0], texel[1], texel[2]) / 255.0 * 2.0 - 1.0;
+  if (s.look == Look::Correct && glm::length(t) < 1.0 / 64) return {0, 0, 1};
+  return glm::normalize(t);
+}
+
+// Habr's: 1 - sin(T,L) for the diffuse light, both vectors along their rays.
+glm::dvec3 SeedShading(const SquareScene& s, const glm::dvec3& ray, const glm::dvec3& strand, double height) {
+  const double toLight = std::acos(glm::dot(strand, glm::normalize(s.light.direction)));
+  const double toEye = std::acos(glm::dot(strand, ray));
+  // cos a cos b + sin a sin b = cos(a - b)
+  const double lobe = std::pow(std::abs(std::cos(toLight - toEye)), s.coat.specularPower);
+  const glm::dvec3 lit = Albedo(s) * (s.light.ambient + s.light.diffuse * (1 - std::sin(toLight))) +
+                         s.light.specular * (lobe * s.coat.specularScale);
+  return lit * glm::mix(s.coat.selfShadow, 1.0, height);
+}
+
+// Kajiya and Kay with a wrapped cosine; the ramp darkens what comes from the light only.
+glm::dvec3 CorrectShading(const SquareScene& s, const glm::dvec3& ray, const glm::dvec3& strand, double height) {
+  constexpr double kWrap = 0.5;
+  const glm::dvec3 l = -glm::normalize(s.light.direction);
+  const double toLight = std::acos(glm::dot(strand, l)), toEye = std::acos(glm::dot(strand, -ray));
+  const double wrapped = std::clamp((l.z + kWrap) / (1 + kWrap), 0.0, 1.0);
+  // sin a sin b - cos a cos b = -cos(a + b)
+  const double lobe = std::pow(std::max(0.0, -std::cos(toLight + toEye)), s.coat.specularPower);
+  const glm::dvec3 direct = Albedo(s) * s.light.diffuse * std::sin(toLight) + s.light.specular * (lobe * s.coat.specularScale);
+  return Albedo(s) * s.light.ambient + direct * (wrapped * glm::mix(s.coat.selfShadow, 1.0, height));
+}
+
+double ShellOpacity(const SquareScene& s, const glm::dvec3& ray, uint32_t slice, double height) {
+  const auto slices = uint32_t(s.coat.slices.size());
+  double a = s.coat.slices[slice][3] / 255.0;
+  if (s.look == Look::Correct && slice == slices - 1) return 0;  // the top slice is emptied
+  if (a < 0.01) return 0;                                        // published: discarded
+  if (s.look == Look::Seed) a *= 1 - height;
+  if (s.semantics == Semantics::Sheet) return a;
+  const double least = 0.25 / std::sqrt(double(s.shells));
+  return 1 - std::pow(1 - std::min(a, 0.999), 1 / std::max(std::abs(ray.z), least));
+}
+
+glm::dvec3 Clamped(const glm::dvec3& c) { return glm::clamp(c, glm::dvec3(0), glm::dvec3(1)); }
+
+}  // namespace
+
+double Decode(double e) { return e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4); }
+double Encode(double l) { return l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055; }
+
+glm::dvec3 RayThrough(const Camera& camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y) {
+  const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+  const double pixel = 2 * std::tan(glm::radians(camera.fovY) / 2) / height;
+  return glm::normalize(forward + right * ((x + 0.5 - width / 2.0) * pixel) + up * ((height / 2.0 - y - 0.5) * pixel));
+}
+
+glm::dvec3 GlossySkinColor(const SquareScene& s, const glm::dvec3& ray, const glm::dvec3& gloss, double power) {
+  const glm::dvec3 n = s.look == Look::Seed ? SeedFlatNormal() : glm::dvec3(0, 0, 1);
+  const glm::dvec3 l = -glm::normalize(s.light.direction), h = glm::normalize(l - ray);
+  const double diffuse = std::max(0.0, glm::dot(n, l));
+  const bool shines = s.look == Look::Seed || diffuse > 0;
+  const double highlight = shines ? std::pow(std::max(0.0, glm::dot(n, h)), power) : 0;
+  return Clamped(Albedo(s) * (s.light.ambient + s.light.diffuse * diffuse) + s.light.specular * gloss * highlight);
+}
+
+glm::dvec3 SkinColor(const SquareScene& s, const glm::dvec3& ray) {
+  return GlossySkinColor(s, ray, glm::dvec3(0), kSeedPower);
+}
+
+glm::dvec4 ShellColor(const SquareScene& s, const glm::dvec3& ray, uint32_t shell) {
+  const double slices = double(s.coat.slices.size());
+  const double layer = shell * slices / s.shells, height = layer / slices;
+  const auto slice = uint32_t(std::min(std::floor(layer + 0.5), slices - 1));
+  const glm::dvec3 strand = Strand(s, s.coat.slices[slice]);
+  const glm::dvec3 color = s.look == Look::Seed ? SeedShading(s, ray, strand, height) : CorrectShading(s, ray, strand, height);
+  return glm::dvec4(Clamped(color), ShellOpacity(s, ray, slice, height));
+}
+
+glm::dvec3 Stored(Look look, const glm::dvec3& c) {
+  return look == Look::Seed ? c : glm::dvec3(Encode(c.x), Encode(c.y), Encode(c.z));
+}
+
+glm::dvec3 Composite(const SquareScene& s, const glm::dvec3& ray) {
+  glm::dvec3 color = SkinColor(s, ray);
+  for (uint32_t shell = 0; shell < s.shells; ++shell) {
+    const glm::dvec4 over = ShellColor(s, ray, shell);
+    color = glm::mix(color, glm::dvec3(over), over.w);
+  }
+  return Stored(s.look, color);
+}
+
+}  // namespace fur::test

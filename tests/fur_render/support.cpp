@@ -1,0 +1,84 @@
+#include "support.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <ostream>
+
+#include "rhi_gl/rhi_gl.h"
+#include "rhi_vulkan/rhi_vulkan.h"
+
+namespace fur::test {
+
+const std::vector<BackendCase>& Backends() {
+  static const std::vector<BackendCase> backends{{"vulkan", rhi_vulkan::CreateDevice}, {"gl", rhi_gl::CreateDevice}};
+  return backends;
+}
+
+void PrintTo(const BackendCase& backend, std::ostream* out) { *out << backend.name; }
+
+std::string BackendName(const testing::TestParamInfo<BackendCase>& info) { return info.param.name; }
+
+void Messages::OnMessage(const rhi::Message& m) {
+  if (m.severity != rhi::Severity::Info) lines.push_back(std::string(m.object) + ": " + m.text);
+}
+
+TestDevice::TestDevice(const BackendCase& backend) {
+  const rhi::DeviceDesc desc{.sink = &messages_};
+  const rhi::Status status = backend.createDevice(desc, &device_);
+  EXPECT_EQ(status, rhi::Status::Ok) << "no " << backend.name << " device: " << rhi::ToString(status);
+}
+
+TestDevice::~TestDevice() {
+  device_ = {};  // leaks are reported here
+  for (const std::string& line : messages_.lines) ADD_FAILURE() << "the device says: " << line;
+}
+
+void OnEachBackend::SetUp() {
+  device_ = std::make_unique<TestDevice>(GetParam());
+  ASSERT_TRUE(*device_);
+}
+
+Frame Render(TestDevice& device, const Model& model, const RenderSettings& settings, const Camera& camera,
+             const std::vector<glm::dmat4>& placements) {
+  Frame frame;
+  frame.image = {"empty", settings.width, settings.height, {}};
+  frame.image.pixels.resize(size_t{4} * settings.width * settings.height);
+  Result<std::unique_ptr<Renderer>> renderer = MakeRenderer(*device, model, settings);
+  if (!renderer) {
+    ADD_FAILURE() << renderer.error().message;
+    return frame;
+  }
+  (*renderer)->Draw(camera, placements);
+  if (Result<Done> done = (*renderer)->Finish(); !done) ADD_FAILURE() << done.error().message;
+  if (Result<Image> image = (*renderer)->ReadImage())
+    frame.image = std::move(*image);
+  else
+    ADD_FAILURE() << image.error().message;
+  if (Result<FrameCounts> counts = (*renderer)->Count(camera, placements))
+    frame.counts = *counts;
+  else
+    ADD_FAILURE() << counts.error().message;
+  return frame;
+}
+
+Rgb PixelAt(const Image& image, uint32_t x, uint32_t y) {
+  const uint8_t* p = &image.pixels[(size_t{y} * image.width + x) * 4];
+  return {p[0], p[1], p[2]};
+}
+
+Rgb Center(const Image& image) { return PixelAt(image, image.width / 2, image.height / 2); }
+
+uint64_t DifferingPixels(const Image& a, const Image& b) {
+  EXPECT_EQ(a.pixels.size(), b.pixels.size());
+  if (a.pixels.size() != b.pixels.size()) return a.pixels.size();
+  uint64_t differing = 0;
+  for (size_t i = 0; i < a.pixels.size(); i += 4) differing += !std::equal(&a.pixels[i], &a.pixels[i] + 4, &b.pixels[i]);
+  return differing;
+}
+
+void ExpectColor(const Rgb& got, const glm::dvec3& expected, double tolerance, const std::string& what) {
+  for (size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(got[c], 255 * expected[int(c)], tolerance) << what << ", channel " << c;
+}
+
+}  // namespace fur::test

@@ -1,0 +1,206 @@
+// The output merger's blending and write masks, against Direct3D's formulas.
+#include "rhi_fixture.h"
+
+namespace rhi_test {
+namespace {
+
+using namespace rhi;
+using B = rhi::Blend;
+
+using Color = std::array<double, 4>;
+constexpr Color kSource{0.8, 0.35, 0.15, 0.6}, kFactor{0.25, 0.5, 0.75, 0.4};
+constexpr std::array<uint8_t, 4> kDest{51, 204, 102, 178};
+
+double FactorOf(B f, size_t c, const Color& s, const Color& d) {
+  switch (f) {
+    case B::Zero: return 0;
+    case B::One: return 1;
+    case B::SrcColor: return s[c];
+    case B::InvSrcColor: return 1 - s[c];
+    case B::SrcAlpha: return s[3];
+    case B::InvSrcAlpha: return 1 - s[3];
+    case B::DestAlpha: return d[3];
+    case B::InvDestAlpha: return 1 - d[3];
+    case B::DestColor: return d[c];
+    case B::InvDestColor: return 1 - d[c];
+    case B::SrcAlphaSat: return c == 3 ? 1 : std::min(s[3], 1 - d[3]);
+    case B::BlendFactor: return kFactor[c];
+    case B::InvBlendFactor: return 1 - kFactor[c];
+    default: return 0;
+  }
+}
+
+double Apply(BlendOp op, double s, double d, double fs, double fd) {
+  switch (op) {
+    case BlendOp::Add: return s * fs + d * fd;
+    case BlendOp::Subtract: return s * fs - d * fd;
+    case BlendOp::RevSubtract: return d * fd - s * fs;
+    case BlendOp::Min: return std::min(s, d);
+    case BlendOp::Max: return std::max(s, d);
+  }
+  return 0;
+}
+
+Rgba8 Oracle(const RenderTargetBlend& b) {
+  Color d;
+  for (size_t c = 0; c < 4; ++c) d[c] = kDest[c] / 255.0;
+  Rgba8 result;
+  for (size_t c = 0; c < 4; ++c) {
+    const bool alpha = c == 3;
+    const double fs = FactorOf(alpha ? b.srcAlpha : b.src, c, kSource, d), fd = FactorOf(alpha ? b.destAlpha : b.dest, c, kSource, d);
+    result[c] = ToUnorm8(Apply(alpha ? b.opAlpha : b.op, kSource[c], d[c], fs, fd));
+  }
+  return result;
+}
+
+// Factors that an alpha channel may use in Direct3D: none of the colors.
+B AlphaTwin(B f) {
+  switch (f) {
+    case B::SrcColor: return B::SrcAlpha;
+    case B::InvSrcColor: return B::InvSrcAlpha;
+    case B::DestColor: return B::DestAlpha;
+    case B::InvDestColor: return B::InvDestAlpha;
+    default: return f;
+  }
+}
+
+class BlendTest : public RhiTest {
+ protected:
+  void Start() {
+    target = gpu.MakeTarget({.width = 64, .height = 1});
+    gpu.Clear(target, {kDest[0] / 255.f, kDest[1] / 255.f, kDest[2] / 255.f, kDest[3] / 255.f});
+    gpu.SetTarget(target);
+  }
+  // Draws the next pixel with this blending.
+  void DrawNext(const RenderTargetBlend& b) {
+    BlendDesc desc;
+    desc.rt[0] = b;
+    desc.rt[0].enable = true;
+    const float factor[4] = {float(kFactor[0]), float(kFactor[1]), float(kFactor[2]), float(kFactor[3])};
+    context.OMSetBlendState(gpu.Blend(desc).get(), factor);
+    const float left = float(cases.size()) / 32 - 1;
+    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {float(kSource[0]), float(kSource[1]), float(kSource[2]), float(kSource[3])},
+                                             .rectangle = {left, 1, left + 1 / 32.f, -1}});
+    cases.push_back(b);
+  }
+  void ExpectAll() {
+    EXPECT_TRUE(Matches(gpu.Read(target), [this](uint32_t x, auto) { return x < cases.size() ? Oracle(cases[x]) : Rgba8{kDest}; }, 1));
+  }
+  Target target;
+  std::vector<RenderTargetBlend> cases;
+};
+
+constexpr B kFactors[] = {B::Zero,      B::One,          B::SrcColor,  B::InvSrcColor,  B::SrcAlpha,    B::InvSrcAlpha,    B::DestAlpha,
+                          B::InvDestAlpha, B::DestColor, B::InvDestColor, B::SrcAlphaSat, B::BlendFactor, B::InvBlendFactor};
+constexpr BlendOp kOps[] = {BlendOp::Add, BlendOp::Subtract, BlendOp::RevSubtract, BlendOp::Min, BlendOp::Max};
+
+TEST_P(BlendTest, EachSourceFactor) {
+  Start();
+  for (const B f : kFactors) DrawNext({.src = f, .dest = B::InvSrcAlpha, .srcAlpha = AlphaTwin(f), .destAlpha = B::DestAlpha});
+  ExpectAll();
+}
+
+TEST_P(BlendTest, EachDestFactor) {
+  Start();
+  for (const B f : kFactors)
+    if (f != B::SrcAlphaSat) DrawNext({.src = B::DestColor, .dest = f, .srcAlpha = B::BlendFactor, .destAlpha = AlphaTwin(f)});
+  ExpectAll();
+}
+
+TEST_P(BlendTest, EachOpAndAlphaOp) {
+  Start();
+  for (const BlendOp op : kOps)
+    for (const BlendOp opAlpha : {BlendOp::Add, BlendOp::RevSubtract, BlendOp::Max})
+      DrawNext({.src = B::SrcAlpha, .dest = B::One, .op = op, .srcAlpha = B::One, .destAlpha = B::DestAlpha, .opAlpha = opAlpha});
+  ExpectAll();
+}
+
+TEST_P(BlendTest, DisabledBlendingReplaces) {
+  Start();
+  BlendDesc off;
+  off.rt[0] = {.enable = false, .src = B::Zero, .dest = B::One};
+  context.OMSetBlendState(gpu.Blend(off).get());
+  gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0.2f, 0.4f, 0.6f, 0.8f}});
+  EXPECT_TRUE(Matches(gpu.Read(target), [](auto, auto) { return Rgba8{51, 102, 153, 204}; }));
+}
+
+TEST_P(BlendTest, WriteMask) {
+  Start();
+  for (uint8_t mask = 0; mask < 16; ++mask) {
+    BlendDesc desc;
+    desc.rt[0].writeMask = mask;
+    context.OMSetBlendState(gpu.Blend(desc).get());
+    const float left = float(mask) / 32 - 1;
+    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0.2f, 0.4f, 0.6f, 0.8f}, .rectangle = {left, 1, left + 1 / 32.f, -1}});
+  }
+  const Rgba8 drawn{51, 102, 153, 204};
+  EXPECT_TRUE(Matches(gpu.Read(target), [&](uint32_t x, auto) {
+    Rgba8 texel;
+    for (size_t c = 0; c < 4; ++c) texel[c] = x < 16 && (x >> c & 1) ? drawn[c] : kDest[c];
+    return texel;
+  }));
+}
+
+TEST_P(BlendTest, IndependentBlend) {
+  RHI_NEEDS_CAP(independentBlend);
+  const Target a = gpu.MakeTarget({}), b = gpu.MakeTarget({});
+  for (const bool independent : {false, true}) {
+    gpu.Clear(a, {0.2f, 0.2f, 0.2f, 0.2f});
+    gpu.Clear(b, {0.2f, 0.2f, 0.2f, 0.2f});
+    IRenderTargetView* views[2] = {a.rtv.get(), b.rtv.get()};
+    context.OMSetRenderTargets(2, views, nullptr);
+    gpu.SetViewport(0, 0, 16, 16);
+    BlendDesc desc;
+    desc.independent = independent;
+    desc.rt[0] = {.enable = true, .src = B::One, .dest = B::One, .srcAlpha = B::One, .destAlpha = B::One};
+    desc.rt[1].writeMask = 0x5;
+    context.OMSetBlendState(gpu.Blend(desc).get());
+    gpu.DrawRect(test_shaders::rect_PSTwoTargets, {.tint = {0.4f, 0.2f, 0.6f, 0}});
+    EXPECT_TRUE(Matches(gpu.Read(a), [](auto, auto) { return Rgba8{153, 102, 204, 51}; }));
+    const Rgba8 second = independent ? Rgba8{153, 51, 102, 51} : Rgba8{204, 102, 153, 51};
+    EXPECT_TRUE(Matches(gpu.Read(b), [&](auto, auto) { return second; })) << independent;
+  }
+}
+
+TEST_P(BlendTest, ClearIgnoresMaskScissorAndViewport) {
+  Start();
+  BlendDesc desc;
+  desc.rt[0].writeMask = 0;
+  const Rect r{1, 0, 2, 1};
+  context.OMSetBlendState(gpu.Blend(desc).get());
+  context.RSSetState(gpu.Rasterizer({.scissor = true}).get());
+  context.RSSetScissorRects(1, &r);
+  gpu.SetViewport(3, 0, 2, 1);
+  gpu.DrawRect(test_shaders::rect_PSTint);  // so that the state reaches the driver
+  gpu.Clear(target, {0, 1, 1, 0});
+  EXPECT_TRUE(Matches(gpu.Read(target), [](auto, auto) { return Rgba8{0, 255, 255, 0}; }));
+}
+
+// A clear within a pass, after draws: what was drawn before is gone, what is drawn after stays.
+TEST_P(BlendTest, ClearBetweenDraws) {
+  Start();
+  gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {1, 0, 0, 1}});
+  gpu.Clear(target, {0, 1, 0, 1});
+  gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0, 0, 1, 1}, .rectangle = {-1, 1, 0, -1}});
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 32 ? Rgba8{0, 0, 255, 255} : Rgba8{0, 255, 0, 255}; }));
+}
+
+// A clear that no draw follows is not lost, whether its target is bound or not.
+TEST_P(BlendTest, ClearWithoutADraw) {
+  Start();
+  gpu.Clear(target, {1, 1, 0, 1});
+  EXPECT_TRUE(Matches(gpu.Read(target), [](auto, auto) { return Rgba8{255, 255, 0, 255}; }));
+  context.OMSetRenderTargets(0, nullptr, nullptr);
+  gpu.Clear(target, {0, 1, 1, 1});
+  context.EndFrame();
+  EXPECT_TRUE(Matches(gpu.Read(target), [](auto, auto) { return Rgba8{0, 255, 255, 255}; }));
+  gpu.Clear(target, {1, 0, 1, 1});
+  const Ref<ITexture> copy = gpu.Texture({.width = 64, .height = 1, .format = Format::RGBA8_UNorm});
+  context.CopyResource(copy.get(), target.color.get());
+  EXPECT_TRUE(Matches(gpu.Read(copy.get()), [](auto, auto) { return Rgba8{255, 0, 255, 255}; }));
+}
+
+RHI_ON_EVERY_BACKEND(BlendTest);
+
+}  // namespace
+}  // namespace rhi_test

@@ -1,0 +1,200 @@
+// Depth functions, depth writes, stencil operations and masks.
+#include "rhi_fixture.h"
+
+namespace rhi_test {
+namespace {
+
+using namespace rhi;
+
+constexpr Rgba8 kWhite{255, 255, 255, 255}, kBlack{0, 0, 0, 0};
+
+// The depth-and-stencil format that this adapter has.
+Format StencilFormat(IDevice& device) {
+  const bool d24 = device.CheckFormatSupport(Format::D24_UNorm_S8_UInt) & FormatSupport::DepthStencil;
+  return d24 ? Format::D24_UNorm_S8_UInt : Format::D32_Float_S8_UInt;
+}
+
+bool Passes(Comparison f, double a, double b) {
+  switch (f) {
+    case Comparison::Never: return false;
+    case Comparison::Less: return a < b;
+    case Comparison::Equal: return a == b;
+    case Comparison::LessEqual: return a <= b;
+    case Comparison::Greater: return a > b;
+    case Comparison::NotEqual: return a != b;
+    case Comparison::GreaterEqual: return a >= b;
+    case Comparison::Always: return true;
+  }
+  return false;
+}
+constexpr Comparison kFunctions[] = {Comparison::Never,   Comparison::Less,     Comparison::Equal,        Comparison::LessEqual,
+                                     Comparison::Greater, Comparison::NotEqual, Comparison::GreaterEqual, Comparison::Always};
+
+class DepthTest : public RhiTest {
+ protected:
+  // Draws column `x` of a target of 32 pixels.
+  void DrawColumn(uint32_t x, float depth, const Rgba32F& tint = {1, 1, 1, 1}) {
+    const float left = float(x) / 16 - 1;
+    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = tint, .rectangle = {left, 1, left + 1 / 16.f, -1}, .extra = {depth, 0, 0, 0}});
+  }
+};
+
+TEST_P(DepthTest, EachFunction) {
+  const float depths[3] = {0.25f, 0.5f, 0.75f};
+  const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = Format::D32_Float});
+  gpu.Clear(target, {0, 0, 0, 0}, 0.5f);
+  gpu.SetTarget(target);
+  for (uint32_t i = 0; i < 24; ++i) {
+    context.OMSetDepthStencilState(gpu.DepthStencil({.depthFunc = kFunctions[i / 3]}).get());
+    DrawColumn(i, depths[i % 3]);
+  }
+  const auto passes = [&](uint32_t x) { return x < 24 && Passes(kFunctions[x / 3], depths[x % 3], 0.5); };
+  EXPECT_TRUE(Matches(gpu.Read(target), [&](uint32_t x, auto) { return passes(x) ? kWhite : kBlack; }));
+  EXPECT_TRUE(Matches(gpu.Read(target.depth.get()), [&](uint32_t x, auto) { return std::array<float, 1>{passes(x) ? depths[x % 3] : 0.5f}; }));
+}
+
+TEST_P(DepthTest, DefaultStateIsLessAndWrites) {
+  const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = Format::D32_Float});
+  gpu.Clear(target, {0, 0, 0, 0}, 1);
+  gpu.SetTarget(target);
+  DrawColumn(0, 0.5f, {1, 0, 0, 1});
+  DrawColumn(0, 0.6f, {0, 1, 0, 1});
+  DrawColumn(1, 0.6f, {0, 1, 0, 1});
+  DrawColumn(1, 0.5f, {1, 0, 0, 1});
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 2 ? Rgba8{255, 0, 0, 255} : kBlack; }));
+}
+
+TEST_P(DepthTest, NoWriteAndNoTest) {
+  const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = Format::D32_Float});
+  gpu.Clear(target, {0, 0, 0, 0}, 0.5f);
+  gpu.SetTarget(target);
+  context.OMSetDepthStencilState(gpu.DepthStencil({.depthWrite = false}).get());
+  DrawColumn(0, 0.25f);
+  context.OMSetDepthStencilState(gpu.DepthStencil({.depthEnable = false}).get());
+  DrawColumn(1, 0.75f);
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 2 ? kWhite : kBlack; }));
+  EXPECT_TRUE(Matches(gpu.Read(target.depth.get()), [](auto, auto) { return std::array<float, 1>{0.5f}; }));
+}
+
+TEST_P(DepthTest, ShaderDepth) {
+  const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = Format::D32_Float});
+  gpu.Clear(target, {0, 0, 0, 0}, 0.5f);
+  gpu.SetTarget(target);
+  gpu.DrawRect(test_shaders::rect_PSDepth);
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 16 ? kWhite : kBlack; }));
+}
+
+TEST_P(DepthTest, DepthBiasMovesAwayAndSlopes) {
+  const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = Format::D32_Float});
+  gpu.Clear(target, {0, 0, 0, 0}, 1);
+  gpu.SetTarget(target);
+  context.RSSetState(gpu.Rasterizer({.depthBias = 1000}).get());
+  DrawColumn(0, 0.5f);
+  context.RSSetState(gpu.Rasterizer({.depthBias = -1000}).get());
+  DrawColumn(1, 0.5f);
+  const Image depth = gpu.Read(target.depth.get());
+  EXPECT_GT(depth.At<float>(0, 0), 0.5f);
+  EXPECT_LT(depth.At<float>(0, 0), 0.501f);
+  EXPECT_LT(depth.At<float>(1, 0), 0.5f);
+}
+
+TEST_P(DepthTest, ClearOfDepthOnlyAndStencilOnly) {
+  const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = StencilFormat(device)});
+  gpu.Clear(target, {0, 0, 0, 0}, 0.25f, 7);
+  context.ClearDepthStencilView(target.dsv.get(), true, 0.75f, false, 99);
+  gpu.SetTarget(target);
+  const DepthStencilDesc is7{.stencilEnable = true, .front = {.func = Comparison::Equal}};
+  context.OMSetDepthStencilState(gpu.DepthStencil(is7).get(), 7);
+  DrawColumn(0, 0.5f);
+  context.ClearDepthStencilView(target.dsv.get(), false, 0, true, 9);
+  DrawColumn(1, 0.6f);
+  context.OMSetDepthStencilState(gpu.DepthStencil(is7).get(), 9);
+  DrawColumn(2, 0.6f);
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x == 0 || x == 2 ? kWhite : kBlack; }));
+}
+
+uint8_t Apply(StencilOp op, uint8_t old, uint8_t reference) {
+  switch (op) {
+    case StencilOp::Keep: return old;
+    case StencilOp::Zero: return 0;
+    case StencilOp::Replace: return reference;
+    case StencilOp::IncrSat: return old == 255 ? old : uint8_t(old + 1);
+    case StencilOp::DecrSat: return old == 0 ? old : uint8_t(old - 1);
+    case StencilOp::Invert: return uint8_t(~old);
+    case StencilOp::Incr: return uint8_t(old + 1);
+    case StencilOp::Decr: return uint8_t(old - 1);
+  }
+  return old;
+}
+constexpr StencilOp kOps[] = {StencilOp::Keep,    StencilOp::Zero,   StencilOp::Replace, StencilOp::IncrSat,
+                              StencilOp::DecrSat, StencilOp::Invert, StencilOp::Incr,    StencilOp::Decr};
+
+// Each operation in each of its three places; then every column is drawn where the stencil is what it should be.
+TEST_P(DepthTest, StencilOps) {
+  for (const uint8_t start : {uint8_t(0), uint8_t(100), uint8_t(255)}) {
+    const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = StencilFormat(device)});
+    gpu.Clear(target, {0, 0, 0, 0}, 0.5f, start);
+    gpu.SetTarget(target);
+    BlendDesc noColor;
+    noColor.rt[0].writeMask = 0;
+    context.OMSetBlendState(gpu.Blend(noColor).get());
+    for (uint32_t i = 0; i < 24; ++i) {
+      DepthStencilDesc d{.depthWrite = false, .stencilEnable = true};
+      const StencilOp op = kOps[i % 8];
+      if (i / 8 == 0) d.front.pass = op;
+      if (i / 8 == 1) d.front.depthFail = op;
+      if (i / 8 == 2) d.front.fail = op, d.front.func = Comparison::Never;
+      context.OMSetDepthStencilState(gpu.DepthStencil(d).get(), 42);
+      DrawColumn(i, i / 8 == 1 ? 0.75f : 0.25f);
+    }
+    context.OMSetBlendState(nullptr);
+    for (uint32_t i = 0; i < 24; ++i) {
+      const DepthStencilDesc equal{.depthEnable = false, .stencilEnable = true, .front = {.func = Comparison::Equal}};
+      context.OMSetDepthStencilState(gpu.DepthStencil(equal).get(), Apply(kOps[i % 8], start, 42));
+      DrawColumn(i, 0.5f);
+    }
+    EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 24 ? kWhite : kBlack; })) << +start;
+  }
+}
+
+TEST_P(DepthTest, StencilFunctionsComparReferenceWithValue) {
+  const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = StencilFormat(device)});
+  gpu.Clear(target, {0, 0, 0, 0}, 1, 5);
+  gpu.SetTarget(target);
+  for (uint32_t i = 0; i < 24; ++i) {
+    context.OMSetDepthStencilState(gpu.DepthStencil({.stencilEnable = true, .front = {.func = kFunctions[i / 3]}}).get(), 4 + i % 3);
+    DrawColumn(i, 0.5f);
+  }
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 24 && Passes(kFunctions[x / 3], 4 + x % 3, 5) ? kWhite : kBlack; }));
+}
+
+TEST_P(DepthTest, StencilMasksAndFaces) {
+  const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = StencilFormat(device)});
+  gpu.Clear(target, {0, 0, 0, 0}, 1, 0xF0);
+  gpu.SetTarget(target);
+  context.RSSetState(gpu.Rasterizer({.cull = CullMode::None}).get());
+  DepthStencilDesc write{.depthWrite = false, .stencilEnable = true, .writeMask = 0x3C};
+  write.front.pass = StencilOp::Replace;
+  write.back.pass = StencilOp::Zero;
+  context.OMSetDepthStencilState(gpu.DepthStencil(write).get(), 0x0F);
+  gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {-1, 1, 0, -1}});  // front: 0xCC
+  gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {1, 1, 0, -1}});   // back: 0xC0
+  gpu.Clear(target, {0, 0, 0, 0}, 1, 0xF0);
+  gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {-1, 1, 0, -1}});
+  gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {1, 1, 0, -1}});
+  context.ClearRenderTargetView(target.rtv.get(), Rgba32F{0, 0, 0, 0}.data());
+  const auto show = [&](uint8_t readMask, uint32_t reference, const Rgba32F& tint) {
+    context.OMSetDepthStencilState(gpu.DepthStencil({.depthEnable = false, .stencilEnable = true, .readMask = readMask, .front = {.func = Comparison::Equal}}).get(), reference);
+    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = tint});
+  };
+  show(0xFF, 0xCC, {1, 0, 0, 1});
+  show(0xF3, 0xC0, {0, 0, 0, 0});  // the masked bits are ignored on both sides: all
+  show(0xFF, 0xCC, {1, 0, 0, 1});
+  show(0xFF, 0xC0, {0, 1, 0, 1});
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 16 ? Rgba8{255, 0, 0, 255} : Rgba8{0, 255, 0, 255}; }));
+}
+
+RHI_ON_EVERY_BACKEND(DepthTest);
+
+}  // namespace
+}  // namespace rhi_test

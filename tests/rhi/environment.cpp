@@ -1,0 +1,33 @@
+// Hands the shared devices back before main returns, and fails on messages that come with their end.
+#include "gpu.h"
+
+namespace rhi_test {
+namespace {
+
+std::map<rhi::Backend, std::unique_ptr<Gpu>>& All() {
+  static std::map<rhi::Backend, std::unique_ptr<Gpu>> all;
+  return all;
+}
+
+class DevicesEnvironment final : public testing::Environment {
+ public:
+  void TearDown() override {
+    for (auto& [backend, gpu] : All()) {
+      gpu->Close();
+      gpu->sink.Verify();
+    }
+    All().clear();
+  }
+};
+
+[[maybe_unused]] const testing::Environment* const kDevices = testing::AddGlobalTestEnvironment(new DevicesEnvironment);
+
+}  // namespace
+
+Gpu& SharedGpu(rhi::Backend backend) {
+  std::unique_ptr<Gpu>& gpu = All()[backend];
+  if (!gpu) gpu = std::make_unique<Gpu>(backend);
+  return *gpu;
+}
+
+}  // namespace rhi_test
