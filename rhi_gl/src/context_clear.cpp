@@ -64,25 +64,29 @@ void Context::ClearDepthStencilView(IDepthStencilView* target, bool clearDepth, 
 
 namespace {
 
-// One mip and slice of a texture seen as `format`: a GL view of it exists as long as this.
+// A texture seen as `format`, level for level: by a GL view where that is not its own. The view shows all of the
+// texture, because Mesa's blits forget where a view begins.
 class FormatView {
  public:
-  FormatView(const Texture& t, uint32_t subresource, Format format) {
-    const uint32_t mip = t.MipOf(subresource), slice = t.SliceOf(subresource);
-    attachment_ = {t.name, t.target, format, mip, slice, false};
+  FormatView(const Texture& t, Format format) : whole_{t.name, t.target, format, 0, 0, false} {
     if (format == t.Desc().format) return;
-    view_ = MakeGlView(t, format, mip, 1, slice, 1, &attachment_.target);
-    attachment_.texture = view_;
-    attachment_.level = attachment_.layer = 0;
+    view_ = MakeGlView(t, format, 0, t.Desc().mipLevels, 0, SliceCount(t.Desc()), &whole_.target);
+    whole_.texture = view_;
   }
   ~FormatView() { glDeleteTextures(1, &view_); }
   FormatView(const FormatView&) = delete;
   FormatView& operator=(const FormatView&) = delete;
-  const Attachment& Get() const { return attachment_; }
+
+  Attachment At(uint32_t mip, uint32_t slice) const {
+    Attachment a = whole_;
+    a.level = mip;
+    a.layer = slice;
+    return a;
+  }
 
  private:
   GLuint view_ = 0;
-  Attachment attachment_;
+  Attachment whole_;
 };
 
 const char* WhyNotResolve(const Texture& dst, uint32_t dstSub, const Texture& src, uint32_t srcSub, Format format) {
@@ -108,9 +112,10 @@ void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITextur
   if (const char* why = WhyNotResolve(*to, dstSubresource, *from, srcSubresource, format))
     return Refuse(MsgCode::FormatMismatch, to->Desc().name, "ResolveSubresource", why);
   OpenGates();
-  const FormatView toView(*to, dstSubresource, format), fromView(*from, srcSubresource, format);
+  const FormatView toView(*to, format), fromView(*from, format);
   const MipLayout m = to->Layout(dstSubresource);
-  BlitPair().Blit(fromView.Get(), m.width, m.height, toView.Get(), m.width, m.height, GL_NEAREST);
+  BlitPair().Blit(fromView.At(0, 0), m.width, m.height,
+                  toView.At(to->MipOf(dstSubresource), to->SliceOf(dstSubresource)), m.width, m.height, GL_NEAREST);
 }
 
 void Context::GenerateMips(IShaderResourceView* target) {
@@ -128,14 +133,15 @@ void Context::GenerateMips(IShaderResourceView* target) {
     glGenerateTextureMipmap(view->name);  // slices of a Tex3D are filtered too, which a blit cannot
     return;
   }
+  const FormatView texture(*view->texture, view->desc.format);
+  const uint32_t lastMip = view->desc.firstMip + view->desc.mipCount - 1;
   BlitPair pair;
-  for (uint32_t slice = 0; slice < view->desc.sliceCount; ++slice)
-    for (uint32_t mip = 1; mip < view->desc.mipCount; ++mip) {
-      const MipLayout from = GetMipLayout(desc, view->desc.firstMip + mip - 1),
-                      to = GetMipLayout(desc, view->desc.firstMip + mip);
+  for (uint32_t slice = view->desc.firstSlice; slice < view->desc.firstSlice + view->desc.sliceCount; ++slice)
+    for (uint32_t mip = view->desc.firstMip; mip < lastMip; ++mip) {
       // Each level from the one above; sRGB texels are averaged as linear light, since GL_FRAMEBUFFER_SRGB is on.
-      pair.Blit({view->name, view->target, view->desc.format, mip - 1, slice, false}, from.width, from.height,
-                {view->name, view->target, view->desc.format, mip, slice, false}, to.width, to.height, GL_LINEAR);
+      const MipLayout from = GetMipLayout(desc, mip), to = GetMipLayout(desc, mip + 1);
+      pair.Blit(texture.At(mip, slice), from.width, from.height, texture.At(mip + 1, slice), to.width, to.height,
+                GL_LINEAR);
     }
 }
 

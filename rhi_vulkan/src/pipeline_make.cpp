@@ -175,10 +175,12 @@ constexpr auto kDynamic = std::to_array<VkDynamicState>(
     {VK_DYNAMIC_STATE_VIEWPORT_WITH_COUNT, VK_DYNAMIC_STATE_SCISSOR_WITH_COUNT, VK_DYNAMIC_STATE_BLEND_CONSTANTS,
      VK_DYNAMIC_STATE_STENCIL_REFERENCE, VK_DYNAMIC_STATE_STENCIL_COMPARE_MASK, VK_DYNAMIC_STATE_STENCIL_WRITE_MASK,
      VK_DYNAMIC_STATE_DEPTH_BIAS, VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE,
-     VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY, VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE,
+     VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
      VK_DYNAMIC_STATE_DEPTH_TEST_ENABLE, VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE, VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
      VK_DYNAMIC_STATE_STENCIL_TEST_ENABLE, VK_DYNAMIC_STATE_STENCIL_OP, VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
-     VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE});
+     VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
+     // Last: a pipeline without vertex buffers leaves it out, because nobody would set it.
+     VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE});
 
 }  // namespace
 
@@ -208,7 +210,7 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   multisample.alphaToCoverageEnable = blendDesc.alphaToCoverage;
   VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
   VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-  dynamic.dynamicStateCount = uint32_t(kDynamic.size());
+  dynamic.dynamicStateCount = uint32_t(kDynamic.size()) - (vertexInput.info.vertexBindingDescriptionCount ? 0 : 1);
   dynamic.pDynamicStates = kDynamic.data();
 
   VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &targets.info};

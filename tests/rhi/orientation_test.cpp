@@ -26,14 +26,14 @@ TEST_P(OrientationTest, GradientOfPosition) {
   const Target target = gpu.MakeTarget({.width = 33, .height = 17, .format = Format::RGBA32_Float});
   gpu.SetTarget(target);
   gpu.DrawRect(test_shaders::rect_PSPosition, {.extra = {0.25f, 0, 0, 0}});
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) { return Rgba32F{x + 0.5f, y + 0.5f, 0.25f, 1}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) { return Rgba32F{float(x) + 0.5f, float(y) + 0.5f, 0.25f, 1}; }));
 }
 
 TEST_P(OrientationTest, UvRunsFromTheTopLeft) {
   const Target target = gpu.MakeTarget({.width = 16, .height = 16, .format = Format::RGBA32_Float});
   gpu.SetTarget(target);
   gpu.DrawRect(test_shaders::rect_PSUv);
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) { return Rgba32F{(x + 0.5f) / 16, (y + 0.5f) / 16, 0, 1}; }, 1e-6));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) { return Rgba32F{(float(x) + 0.5f) / 16, (float(y) + 0.5f) / 16, 0, 1}; }, 1e-6));
 }
 
 TEST_P(OrientationTest, TextureRowsAreKept) {
@@ -84,7 +84,7 @@ TEST_P(OrientationTest, DepthRangeIsZeroToOne) {
   for (const float z : {0.f, 0.25f, 0.5f, 0.999f}) {
     context.OMSetDepthStencilState(gpu.DepthStencil({.depthFunc = Comparison::Always}).get());
     gpu.DrawRect(test_shaders::rect_PSPosition, {.extra = {z, 0, 0, 0}});
-    EXPECT_TRUE(Matches(gpu.Read(target), [z](uint32_t x, uint32_t y) { return Rgba32F{x + 0.5f, y + 0.5f, z, 1}; })) << z;
+    EXPECT_TRUE(Matches(gpu.Read(target), [z](uint32_t x, uint32_t y) { return Rgba32F{float(x) + 0.5f, float(y) + 0.5f, z, 1}; })) << z;
     EXPECT_TRUE(Matches(gpu.Read(target.depth.get()), [z](auto, auto) { return std::array<float, 1>{z}; })) << z;
   }
   const Viewport part{0, 0, 4, 4, 0.25f, 0.75f};

@@ -24,8 +24,8 @@ class TestSink final : public rhi::IMessageSink {
   // All messages of Warning or worse, one a line.
   std::string Dump() const;
 
-  // Reports what was not expected, and what was expected and did not come, as failures of the running test. Then
-  // forgets all.
+  // Reports what was not expected (the first of each kind), and what was expected and did not come, as failures of the
+  // running test. Then forgets all.
   void Verify();
   // The same without gtest: the problems, empty when all is well.
   std::vector<std::string> TakeProblems();
@@ -37,7 +37,7 @@ class TestSink final : public rhi::IMessageSink {
   };
   struct Entry {
     rhi::MsgCode code;
-    rhi::Severity severity;
+    int32_t apiId;
     std::string text;
   };
   mutable std::mutex mutex_;
