@@ -60,6 +60,7 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   s.shells = f.shells;
   s.drawFins = !f.noFins;
   s.drawShells = !f.noShells;
+  if (s.look == fur::Look::Seed) s.light = fur::kDemoLight;
   s.background = s.look == fur::Look::Correct ? kStudioGrey : glm::dvec3(0);
   if (f.background.empty()) return s;
   Result<glm::dvec3> background = ParseVector(f.background, "--background");

@@ -210,12 +210,12 @@ class Resolver {
   // long: then a strand is a few hundredths of its length thick. The mean size of the UV square on the skin follows
   // from the areas. A whole number keeps the tiling seamless where u or v wraps from 1 to 0.
   double TilesAcross(uint32_t material, double length) const {
-    constexpr double kTileInLengths = 1.3, kMostTiles = 4096;
+    constexpr double kMostTiles = 4096;
     double skin = 0, uv = 0;
     for (const Part& part : model_.parts)
       if (model_.primitives[part.primitive].material == material) AddAreas(part, &skin, &uv);
     if (!(skin > 0) || !(uv > 0) || !(length > 0)) return 1;
-    return std::clamp(std::round(std::sqrt(skin / uv) / (kTileInLengths * length)), 1.0, kMostTiles);
+    return std::clamp(std::round(std::sqrt(skin / uv) / (kTileOverLength * length)), 1.0, kMostTiles);
   }
 
   void AddAreas(const Part& part, double* skin, double* uv) const {

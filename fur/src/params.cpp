@@ -131,8 +131,9 @@ Result<Done> ApplyFurJson(const Json& object, const std::string& where, bool ext
   if (!object.is_object())
     return Error{ErrorCode::InputMalformed, where + ": must be an object of fur parameters, not " + object.type_name()};
   FurParams changed = *params;  // all or nothing
-  // The cat's extras state the published law in words, "alpha*(1-i/16)".
+  // The cat's extras state the published laws in words: "alpha*(1-i/16)", "0.9+0.1*i/16".
   if (extras && object.contains("source_shell_alpha")) changed.heightFalloff = 1;
+  if (extras && object.contains("source_self_shadow")) changed.selfShadow = 0.9;
   for (const auto& [name, value] : object.items()) {
     const Key* key = FindKey(extras ? WithoutAlias(name) : name);
     if (key == nullptr && extras && IsDescription(name)) continue;

@@ -14,8 +14,6 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-// Tile width over fur length that the stored tangents assume: the volume knows its width in texels only.
-constexpr double kTileOverLength = 4;
 // How far the tip of an undercoat hair is drawn to the nearest overcoat hair (Sheppard 2004: domination), in units of
 // the distance between them.
 constexpr double kClump = 0.45;

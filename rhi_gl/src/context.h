@@ -97,6 +97,9 @@ class Context final : public backend::ContextBase {
   void BindStorage(uint32_t block, Stage, const ShaderResource&);
   void BindUavs(const Shader&);
   void BindDummy(uint32_t unit, const ShaderResource&);
+  void BindUavBuffer(uint32_t slot, const UnorderedAccessView*);
+  void BindUavTexture(uint32_t slot, const UnorderedAccessView*);
+  void ReportUnbound(Stage, const ShaderResource&, bool other);
 
   // context_compute.cpp
   bool PrepareDispatch();
@@ -130,6 +133,7 @@ class Context final : public backend::ContextBase {
   Status MapBuffer(Buffer&, MapMode, Mapped*);
   Status MapTexture(Texture&, uint32_t subresource, MapMode, Mapped*);
   Status RefuseMap(const char* name, MsgCode, const char* why) const;
+  void RefuseUpdate(const Buffer*, uint32_t size);
   void WaitForCopies(bool* touched);
   void MarkMoved(const Buffer&);
 

@@ -78,9 +78,7 @@ void Context::BindPair(uint32_t unit, Stage stage, const Shader& shader, uint32_
   if (view && view->target == TargetOf(declared.dim)) {
     gl_.UseTexture(unit, view->uid, view->name);
   } else {
-    if (view)
-      ReportOnce(Severity::Error, MsgCode::FormatMismatch, "%s t%u: the view's dimension is not the shader's; it reads 0",
-                 ToString(stage), slots.texture);
+    ReportUnbound(stage, declared, view != nullptr);
     BindDummy(unit, declared);
   }
   const auto* sampler = static_cast<const SamplerState*>(loadSampler_.get());
@@ -89,6 +87,16 @@ void Context::BindPair(uint32_t unit, Stage stage, const Shader& shader, uint32_
     if (!sampler) sampler = static_cast<const SamplerState*>(defaultSampler_.get());
   }
   gl_.UseSampler(unit, sampler->uid, sampler->name);
+}
+
+void Context::ReportUnbound(Stage stage, const ShaderResource& declared, bool other) {
+  if (other) {
+    ReportOnce(Severity::Error, MsgCode::FormatMismatch, "%s t%u: the view is of another kind than the shader's %s; it reads 0",
+               ToString(stage), declared.slot, declared.name);
+  } else {
+    ReportOnce(Severity::Warning, MsgCode::NothingBound, "%s t%u: nothing is bound where the shader reads %s; it reads 0",
+               ToString(stage), declared.slot, declared.name);
+  }
 }
 
 void Context::BindDummy(uint32_t unit, const ShaderResource& declared) {
@@ -104,6 +112,7 @@ void Context::BindDummy(uint32_t unit, const ShaderResource& declared) {
 void Context::BindStorage(uint32_t block, Stage stage, const ShaderResource& declared) {
   const auto* view = static_cast<const ShaderResourceView*>(state_.resources[size_t(stage)][declared.slot].get());
   if (!view || !view->buffer) {
+    ReportUnbound(stage, declared, view != nullptr);
     gl_.UseStorage(block, 0, core_.zeroBuffer, 0, kMaxConstantBufferBytes);
     return;
   }
@@ -115,22 +124,34 @@ void Context::BindStorage(uint32_t block, Stage stage, const ShaderResource& dec
 void Context::BindUavs(const Shader& shader) {
   for (const ShaderResource* declared : shader.writable) {
     const auto* view = static_cast<const UnorderedAccessView*>(state_.uavs[declared->slot].get());
-    if (declared->kind == ShaderResourceKind::RWStructuredBuffer) {
-      const Buffer* b = view ? view->buffer : nullptr;
-      // Nothing bound: a block that nothing lies behind, so robust access drops writes and reads 0.
-      if (!b) gl_.UnbindStorage(kGlUavBufferBase + declared->slot);
-      if (b)
-        gl_.UseStorage(kGlUavBufferBase + declared->slot, b->uid, b->name, view->desc.firstElement * view->stride,
-                       view->desc.elementCount * view->stride);
-      continue;
+    const bool wantsBuffer = declared->kind == ShaderResourceKind::RWStructuredBuffer;
+    if (view && (view->buffer != nullptr) != wantsBuffer) view = nullptr;
+    if (!view)
+      ReportOnce(Severity::Warning, MsgCode::NothingBound,
+                 "u%u: nothing that fits is bound where the shader uses %s; it reads 0 and writes are dropped",
+                 declared->slot, declared->name);
+    if (wantsBuffer) {
+      BindUavBuffer(declared->slot, view);
+    } else {
+      BindUavTexture(declared->slot, view);
     }
-    const bool texture = view && view->texture;
-    const uint32_t uid = texture ? view->uid : 0;
-    if (images_[declared->slot] == uid) continue;
-    images_[declared->slot] = uid;
-    glBindImageTexture(declared->slot, texture ? view->name : 0, 0, GL_TRUE, 0, GL_READ_WRITE,
-                       texture ? GetGlFormat(view->desc.format).internal : GLenum(GL_RGBA8));
   }
+}
+
+void Context::BindUavBuffer(uint32_t slot, const UnorderedAccessView* view) {
+  // Nothing bound: a block with nothing behind it, whose reads robust access makes 0.
+  if (!view) return gl_.UnbindStorage(kGlUavBufferBase + slot);
+  const Buffer& b = *view->buffer;
+  gl_.UseStorage(kGlUavBufferBase + slot, b.uid, b.name, view->desc.firstElement * view->stride,
+                 view->desc.elementCount * view->stride);
+}
+
+void Context::BindUavTexture(uint32_t slot, const UnorderedAccessView* view) {
+  const uint32_t uid = view ? view->uid : 0;
+  if (images_[slot] == uid) return;
+  images_[slot] = uid;
+  glBindImageTexture(slot, view ? view->name : 0, 0, GL_TRUE, 0, GL_READ_WRITE,
+                     view ? GetGlFormat(view->desc.format).internal : GLenum(GL_RGBA8));
 }
 
 }  // namespace rhi_gl

@@ -22,7 +22,7 @@ bool Context::PrepareDispatch() {
     return false;
   }
   Settle();
-  gl_.UseProgram(shader->computeUid, shader->computeProgram);
+  gl_.UseProgram(shader->code->uid, shader->code->computeProgram);
   BindStage(Stage::Compute, *shader);
   BindUavs(*shader);
   BindConstants(0xF);

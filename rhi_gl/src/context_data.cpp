@@ -10,10 +10,7 @@ using namespace backend;
 void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) {
   auto* buffer = static_cast<Buffer*>(target);
   if (!buffer || !buffer->IsRingConstant() || size > buffer->Desc().byteWidth) [[unlikely]] {
-    Refuse(buffer && size > buffer->Desc().byteWidth ? MsgCode::OutOfBounds : MsgCode::MapMode,
-           buffer ? buffer->Desc().name : "", "UpdateConstants",
-           "it needs a dynamic constant buffer and at most its byteWidth of data");
-    return;
+    return RefuseUpdate(buffer, size);
   }
   std::byte* slice = ring_.Rename(*buffer);
   if (!slice) [[unlikely]]
@@ -21,6 +18,13 @@ void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) 
   std::memcpy(slice, data, size);
   stats_.ringBytes += size;
   dirty_ |= buffer->boundSlots * DirtyConstantSlot;
+}
+
+void Context::RefuseUpdate(const Buffer* buffer, uint32_t size) {
+  if (!buffer) return Refuse(MsgCode::NothingBound, "", "UpdateConstants", "the buffer is null");
+  const bool tooLarge = size > buffer->Desc().byteWidth;
+  Refuse(tooLarge ? MsgCode::OutOfBounds : MsgCode::MapMode, buffer->Desc().name, "UpdateConstants",
+         "it needs a dynamic constant buffer and at most its byteWidth of data");
 }
 
 void Context::MarkMoved(const Buffer& buffer) {
@@ -129,7 +133,8 @@ Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, siz
   const Texture* t = AsTexture(texture);
   if (t && rowPitch == 0 && subresource < t->SubresourceCount()) rowPitch = t->Layout(subresource).rowBytes;
   if (const char* why = t ? WhyNotRead(*t, subresource, capacity, rowPitch) : "the texture is null") {
-    Refuse(MsgCode::OutOfBounds, t ? t->Desc().name : "", "ReadBack", why);
+    const bool exists = t && subresource < t->SubresourceCount();
+    Refuse(exists ? MsgCode::OutOfBounds : MsgCode::SubresourceOutOfRange, t ? t->Desc().name : "", "ReadBack", why);
     return Status::InvalidArg;
   }
   Settle();

@@ -7,13 +7,41 @@
 
 namespace rhi_gl {
 
-GLuint LinkProgram(std::initializer_list<const Shader*> shaders, std::string* log) {
+namespace {
+
+GLenum StageEnum(Stage stage) {
+  switch (stage) {
+    case Stage::Vertex: return GL_VERTEX_SHADER;
+    case Stage::Geometry: return GL_GEOMETRY_SHADER;
+    case Stage::Pixel: return GL_FRAGMENT_SHADER;
+    case Stage::Compute: return GL_COMPUTE_SHADER;
+  }
+  return GL_VERTEX_SHADER;
+}
+
+GLuint CompileShader(Stage stage, const char* glsl, std::string* log) {
+  const GLuint name = glCreateShader(StageEnum(stage));
+  glShaderSource(name, 1, &glsl, nullptr);
+  glCompileShader(name);
+  GLint compiled = GL_FALSE, length = 0;
+  glGetShaderiv(name, GL_COMPILE_STATUS, &compiled);
+  if (compiled) return name;
+  glGetShaderiv(name, GL_INFO_LOG_LENGTH, &length);
+  log->resize(size_t(std::max(length, 1)));
+  glGetShaderInfoLog(name, GLsizei(log->size()), nullptr, log->data());
+  glDeleteShader(name);
+  return 0;
+}
+
+}  // namespace
+
+GLuint LinkProgram(std::initializer_list<GLuint> shaders, std::string* log) {
   const GLuint name = glCreateProgram();
-  for (const Shader* s : shaders)
-    if (s) glAttachShader(name, s->name);
+  for (GLuint s : shaders)
+    if (s) glAttachShader(name, s);
   glLinkProgram(name);
-  for (const Shader* s : shaders)
-    if (s) glDetachShader(name, s->name);
+  for (GLuint s : shaders)
+    if (s) glDetachShader(name, s);
   GLint linked = GL_FALSE, length = 0;
   glGetProgramiv(name, GL_LINK_STATUS, &linked);
   if (linked) return name;
@@ -24,8 +52,22 @@ GLuint LinkProgram(std::initializer_list<const Shader*> shaders, std::string* lo
   return 0;
 }
 
+const ShaderCode* ProgramCache::Compile(Stage stage, const char* glsl, std::string* log) {
+  const std::string key = char('0' + int(stage)) + std::string(glsl);
+  if (const auto found = codes_.find(key); found != codes_.end()) return &found->second;
+  ShaderCode code;
+  code.shader = CompileShader(stage, glsl, log);
+  if (code.shader == 0) return nullptr;
+  if (stage == Stage::Compute && (code.computeProgram = LinkProgram({code.shader}, log)) == 0) {
+    glDeleteShader(code.shader);
+    return nullptr;
+  }
+  code.uid = core_.NewUid();
+  return &codes_.emplace(key, code).first->second;
+}
+
 const Program& ProgramCache::Get(const Shader* vs, const Shader* gs, const Shader* ps, bool* made) {
-  const Key key{vs->uid, gs ? gs->uid : 0, ps ? ps->uid : 0};
+  const Key key{vs->code->uid, gs ? gs->code->uid : 0, ps ? ps->code->uid : 0};
   const auto found = made_.find(key);
   *made = found == made_.end();
   return *made ? made_.emplace(key, Make(vs, gs, ps)).first->second : found->second;
@@ -36,21 +78,12 @@ Program ProgramCache::Make(const Shader* vs, const Shader* gs, const Shader* ps)
   Program p;
   p.uid = core_.NewUid();
   p.usesVertexId = vs->reflection.usesVertexId;
-  p.name = LinkProgram({vs, gs, ps}, &why);
+  p.name = LinkProgram({vs->code->shader, gs ? gs->code->shader : 0, ps ? ps->code->shader : 0}, &why);
   if (p.name == 0)
     core_.log.Report(Severity::Error, MsgCode::ShaderRejected, vs->Name().c_str(),
                      "the driver cannot link %s, %s and %s: %s", vs->Name().c_str(), gs ? gs->Name().c_str() : "no GS",
                      ps ? ps->Name().c_str() : "no PS", why.c_str());
   return p;
-}
-
-void ProgramCache::Forget(uint32_t shaderUid) {
-  std::erase_if(made_, [&](const auto& entry) {
-    const auto& [key, program] = entry;
-    if (std::find(key.begin(), key.end(), shaderUid) == key.end()) return false;
-    core_.Discard(NameKind::Program, program.name);
-    return true;
-  });
 }
 
 }  // namespace rhi_gl

@@ -1,4 +1,5 @@
-// Linked programs, one for each set of shaders that was drawn with.
+// Compiled shaders by their text, and linked programs by their shaders. Like a pipeline cache they live as long as the
+// device: a shader made again from the same text costs neither a compilation nor a link.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -14,14 +15,21 @@ namespace rhi_gl {
 class Core;
 class Shader;
 
+// What GL made of one GLSL text.
+struct ShaderCode {
+  GLuint shader = 0;
+  uint32_t uid = 0;
+  GLuint computeProgram = 0;
+};
+
 struct Program {
   GLuint name = 0;  // 0: the driver refused to link it; a message said why
   uint32_t uid = 0;
   bool usesVertexId = false;
 };
 
-// Links shaders; 0 and the driver's log when it refuses.
-GLuint LinkProgram(std::initializer_list<const Shader*> shaders, std::string* log);
+// Links compiled shaders, of which 0 is none; 0 and the driver's log when it refuses.
+GLuint LinkProgram(std::initializer_list<GLuint> shaders, std::string* log);
 
 class ProgramCache {
  public:
@@ -31,7 +39,9 @@ class ProgramCache {
 
   // `gs` and `ps` may be null. *made: it was not there yet.
   const Program& Get(const Shader* vs, const Shader* gs, const Shader* ps, bool* made);
-  void Forget(uint32_t shaderUid);
+
+  // The code of this text, compiled now if it is new; null, and the driver's log, when it refuses.
+  const ShaderCode* Compile(rhi::Stage, const char* glsl, std::string* log);
 
  private:
   using Key = std::array<uint32_t, 3>;
@@ -43,6 +53,7 @@ class ProgramCache {
   Program Make(const Shader* vs, const Shader* gs, const Shader* ps);
 
   Core& core_;
+  std::unordered_map<std::string, ShaderCode> codes_;  // by stage and text
   std::unordered_map<Key, Program, Hash> made_;
 };
 

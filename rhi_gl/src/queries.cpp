@@ -48,7 +48,8 @@ Status Query::Create(const CorePtr& core, const QueryDesc& desc, Ref<IQuery>* ou
   core->Enter();
   auto query = Ref<Query>::Adopt(new Query(core, desc.type));
   query->nameCount_ = NamesOf(desc.type);
-  for (uint32_t i = 0; i < query->nameCount_; ++i) glCreateQueries(TargetOf(desc.type, i), 1, &query->names_[i]);
+  // Not glCreateQueries: Mesa's knows no pipeline statistics.
+  glGenQueries(GLsizei(query->nameCount_), query->names_.data());
   *out = query;
   return Status::Ok;
 }

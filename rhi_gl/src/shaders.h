@@ -10,25 +10,19 @@ using backend::Object;
 class Shader final : public Object<IShader> {
  public:
   static Status Create(const CorePtr&, const ShaderBlob&, Ref<IShader>* out);
-  ~Shader() override;
   Stage GetStage() const override { return stage; }
 
-  GLuint name = 0;
-  uint32_t uid = 0;
+  const ShaderCode* code = nullptr;
   Stage stage;
   ShaderReflection reflection;
   uint32_t inputMask = 0;                    // vertex: attribute locations
   std::vector<const ShaderResource*> pairs;  // the texture of each of reflection.pairs
   std::vector<const ShaderResource*> storage;  // structured t registers in the order of their storage blocks
   std::vector<const ShaderResource*> writable;  // u registers
-  GLuint computeProgram = 0;
-  uint32_t computeUid = 0;
 
  private:
   Shader(const CorePtr& core, const ShaderBlob& blob) : stage(blob.stage), reflection(blob.reflection), core_(core) {}
   bool SortResources();
-  Status Compile(const ShaderBlob&);
-  Status LinkCompute(const ShaderBlob&);
 
   CorePtr core_;
 };

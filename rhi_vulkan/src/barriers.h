@@ -39,7 +39,7 @@ inline constexpr Access kStorageWrite{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
 
 VkPipelineStageFlags2 StageBits(Stage);
 Access SampledRead(Stage, bool depth);
-Access StorageRead(Stage);   // structured buffers in t registers
+Access StorageRead(Stage);  // structured buffers in t registers
 Access UniformRead(VkPipelineStageFlags2 stages);
 
 // The last write (or layout transition) and the reads that have been made to see it.

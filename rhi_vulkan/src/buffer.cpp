@@ -1,8 +1,7 @@
 #include <cstring>
 
-#include "resources.h"
-
 #include "context_bits.h"
+#include "resources.h"
 
 namespace rhi_vulkan {
 namespace {

@@ -135,6 +135,13 @@ class Context final : public backend::ContextBase {
 
   // context_draw.cpp
   bool PrepareDraw();
+  bool ReadyToDraw() {
+    const uint32_t dirty = dirty_ & kDirtyDraw;
+    if (dirty == 0) return true;
+    if (dirty != kDirtyOffsets) return PrepareDraw();
+    BindConstantOffsets();
+    return true;
+  }
   bool CheckDraw();
   bool CheckGeometryInput(const Shader* gs);
   void UseInputs();
@@ -152,7 +159,12 @@ class Context final : public backend::ContextBase {
   void ApplyRaster();
   void ApplyDepthStencil();
   // context_sets.cpp
-  void BindConstantOffsets();
+  void BindConstantOffsets() {
+    dirty_ &= ~kDirtyOffsets;
+    vk_.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_->layout, kVkConstantSet, 1,
+                                &constantSet_, kMaxConstantBuffers, constantOffsets_.data());
+  }
+  void OwnOffset(uint32_t slot, Buffer*);
   bool BindConstants();
   VkDescriptorSet ConstantSet();
   bool BindStageSets();
@@ -173,7 +185,9 @@ class Context final : public backend::ContextBase {
   void StopSegments();
   // context_map.cpp
   bool Discard(Buffer&);
-  void RejectUpdate(const Buffer*, uint32_t size);
+  bool DiscardInPage(Buffer&);
+  bool DiscardInNewPage(Buffer&);
+  void UpdateInNewPage(Buffer*, const void* data, uint32_t size);
   Status MapBuffer(Buffer&, MapMode, Mapped*);
   Status MapTexture(Texture&, uint32_t subresource, MapMode, Mapped*);
   Status MapError(MsgCode, const char* object, const char* text);
@@ -202,7 +216,9 @@ class Context final : public backend::ContextBase {
   const VolkDeviceTable& vk_;
   Ring& ring_;
   VkCommandBuffer cmd_ = VK_NULL_HANDLE;
-  std::array<const Slice*, kMaxConstantBuffers> constantSlices_{};
+  // Where the contents of b0..b3 are in their pages. A dynamic buffer writes its own entry when its contents move.
+  std::array<uint32_t, kMaxConstantBuffers> constantOffsets_{};
+  std::array<Ref<IBuffer>, kMaxConstantBuffers> offsetOwners_;
   VkDescriptorSet constantSet_ = VK_NULL_HANDLE;
   const Pipeline* pipeline_ = nullptr;
   bool inPass_ = false;
@@ -223,7 +239,6 @@ class Context final : public backend::ContextBase {
   std::deque<uint64_t> frames_;  // last serials of the frames in flight
   uint32_t framesInFlight_;
   NullResources null_;
-  Slice zeroSlice_;
   VkPipelineStageFlags2 constantStages_ = 0;
   std::vector<MsgCode> reported_;
   uint64_t pipelinesBefore_ = 0;  // PipelineCache::made at the last reset of the statistics

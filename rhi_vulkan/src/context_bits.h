@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rhi/backend/context_base.h"
+#include "vulkan_api.h"
 
 namespace rhi_vulkan {
 

@@ -20,7 +20,8 @@ void Context::DispatchIndirect(IBuffer* args, uint32_t offset) {
 bool Context::PrepareDispatch() {
   const auto* shader = static_cast<const Shader*>(state_.shaders[size_t(Stage::Compute)].get());
   if (!shader) {
-    Report(Severity::Error, MsgCode::NothingBound, "", "dispatch without a compute shader; call CSSetShader; it is skipped");
+    Report(Severity::Error, MsgCode::NothingBound, "",
+           "dispatch without a compute shader; call CSSetShader; it is skipped");
     return false;
   }
   if (core_->lost) return false;
@@ -32,8 +33,9 @@ bool Context::PrepareDispatch() {
     if (view && view->texture) Use(*view->texture, view->Range(), kStorageWrite);
     if (view && view->buffer) Use(*view->buffer, kStorageWrite);
     if (view || r.kind != ShaderResourceKind::RWTexture || core_->adapter.features.nullDescriptor) continue;
-    Report(Severity::Error, MsgCode::NothingBound, r.name,
-           "nothing is bound to a RWTexture register, and this driver has no null descriptors; the dispatch is skipped");
+    Report(
+        Severity::Error, MsgCode::NothingBound, r.name,
+        "nothing is bound to a RWTexture register, and this driver has no null descriptors; the dispatch is skipped");
     return false;
   }
   for (const Ref<IBuffer>& constants : state_.constants)
@@ -43,13 +45,11 @@ bool Context::PrepareDispatch() {
   const std::array<VkDescriptorSet, 3> sets{
       ConstantSet(), shader->layout->bindings.empty() ? VK_NULL_HANDLE : StageSet(Stage::Compute, *shader),
       shader->uavLayout->bindings.empty() ? VK_NULL_HANDLE : UavSet(*shader)};
-  const std::array<uint32_t, kMaxConstantBuffers> offsets{constantSlices_[0]->offset, constantSlices_[1]->offset,
-                                                          constantSlices_[2]->offset, constantSlices_[3]->offset};
   vk_.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, shader->compute);
   for (uint32_t i = 0; i < sets.size(); ++i)
     if (sets[i])
       vk_.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, shader->computeLayout, i, 1, &sets[i],
-                                  i == 0 ? kMaxConstantBuffers : 0, offsets.data());
+                                  i == 0 ? kMaxConstantBuffers : 0, constantOffsets_.data());
   StartSegments(true);
   return true;
 }

@@ -64,7 +64,8 @@ void Context::CopyResource(IResource* dst, IResource* src) {
   auto &to = static_cast<Texture&>(*dst), &from = static_cast<Texture&>(*src);
   const TextureDesc &a = to.Desc(), &b = from.Desc();
   if (a.width != b.width || a.height != b.height || a.depthOrArray != b.depthOrArray || a.mipLevels != b.mipLevels)
-    return Complain(MsgCode::FormatMismatch, to.Name().c_str(), "CopyResource needs textures of one size and mip count");
+    return Complain(MsgCode::FormatMismatch, to.Name().c_str(),
+                    "CopyResource needs textures of one size and mip count");
   for (uint32_t i = 0; i < to.SubresourceCount(); ++i) CopyTextures({&to, i, 0, 0, 0}, {&from, i, 0, 0, 0}, nullptr);
 }
 
@@ -75,15 +76,17 @@ void Context::CopySubresourceRegion(IResource* dst, uint32_t dstSubresource, uin
   if (!dstBuffer != !srcBuffer)
     return Complain(MsgCode::FormatMismatch, "", "CopySubresourceRegion between a buffer and a texture; it is ignored");
   if (dstBuffer) return CopyBuffers(*dstBuffer, x, *srcBuffer, box);
-  CopyTextures({static_cast<Texture*>(dst), dstSubresource, x, y, z}, {static_cast<Texture*>(src), srcSubresource, 0, 0, 0},
-               box);
+  CopyTextures({static_cast<Texture*>(dst), dstSubresource, x, y, z},
+               {static_cast<Texture*>(src), srcSubresource, 0, 0, 0}, box);
 }
 
 void Context::CopyBuffers(Buffer& dst, uint32_t x, Buffer& src, const Box* box) {
   const uint32_t left = box ? box->left : 0, right = box ? box->right : src.Desc().byteWidth;
   if (!CheckCopyDest(dst.GetUsage(), dst.Name().c_str())) return;
-  if (left > right || right > src.Desc().byteWidth || x > dst.Desc().byteWidth || right - left > dst.Desc().byteWidth - x)
-    return Complain(MsgCode::OutOfBounds, dst.Name().c_str(), "a copy reaches beyond the end of a buffer; it is ignored");
+  if (left > right || right > src.Desc().byteWidth || x > dst.Desc().byteWidth ||
+      right - left > dst.Desc().byteWidth - x)
+    return Complain(MsgCode::OutOfBounds, dst.Name().c_str(),
+                    "a copy reaches beyond the end of a buffer; it is ignored");
   const bool overlaps = &dst == &src && x < right && left < x + (right - left);
   if (overlaps) return Complain(MsgCode::OutOfBounds, dst.Name().c_str(), "a copy overlaps itself; it is ignored");
   if (left == right) return;
@@ -107,13 +110,16 @@ bool Context::CheckCopy(const TextureRegion& dst, const TextureRegion& src, cons
   const Texture &to = *dst.texture, &from = *src.texture;
   const TextureDesc &a = to.Desc(), &b = from.Desc();
   if (!SameGroup(a.format, b.format) || a.sampleCount != b.sampleCount) {
-    Complain(MsgCode::FormatMismatch, to.Name().c_str(), "a copy needs one format group and one sample count; it is ignored");
+    Complain(MsgCode::FormatMismatch, to.Name().c_str(),
+             "a copy needs one format group and one sample count; it is ignored");
     return false;
   }
   const bool ordered = box.left <= box.right && box.top <= box.bottom && box.front <= box.back;
-  if (!ordered || !Fits(backend::GetMipLayout(b, from.One(src.subresource).mip), box.left, box.top, box.front, Extent(box)) ||
+  if (!ordered ||
+      !Fits(backend::GetMipLayout(b, from.One(src.subresource).mip), box.left, box.top, box.front, Extent(box)) ||
       !Fits(backend::GetMipLayout(a, to.One(dst.subresource).mip), dst.x, dst.y, dst.z, Extent(box))) {
-    Complain(MsgCode::OutOfBounds, to.Name().c_str(), "a copy reaches beyond the edges of a subresource; it is ignored");
+    Complain(MsgCode::OutOfBounds, to.Name().c_str(),
+             "a copy reaches beyond the edges of a subresource; it is ignored");
     return false;
   }
   if (&to == &from && dst.subresource == src.subresource) {
@@ -125,7 +131,8 @@ bool Context::CheckCopy(const TextureRegion& dst, const TextureRegion& src, cons
 
 void Context::CopyTextures(const TextureRegion& dst, const TextureRegion& src, const Box* box) {
   if (dst.subresource >= dst.texture->SubresourceCount() || src.subresource >= src.texture->SubresourceCount())
-    return Complain(MsgCode::SubresourceOutOfRange, dst.texture->Name().c_str(), "a copy of a subresource that is not there");
+    return Complain(MsgCode::SubresourceOutOfRange, dst.texture->Name().c_str(),
+                    "a copy of a subresource that is not there");
   const backend::MipLayout m = backend::GetMipLayout(src.texture->Desc(), src.texture->One(src.subresource).mip);
   const Box b = box ? *box : Box{0, 0, 0, m.width, m.height, m.depth};
   if (!CheckCopy(dst, src, b) || b.left == b.right || b.top == b.bottom || b.front == b.back) return;
@@ -151,7 +158,8 @@ void Context::CopyImages(const TextureRegion& dst, const TextureRegion& src, con
   vk_.vkCmdCopyImage(cmd_, src.texture->image, kCopySource.layout, dst.texture->image, kCopyDest.layout, 1, &region);
 }
 
-void Context::CopyImageAndBuffer(const TextureRegion& image, const TextureRegion& staging, const Box& box, bool toImage) {
+void Context::CopyImageAndBuffer(const TextureRegion& image, const TextureRegion& staging, const Box& box,
+                                 bool toImage) {
   Texture &t = *image.texture, &s = *staging.texture;
   Use(t, t.One(image.subresource), toImage ? kCopyDest : kCopySource);
   UseStaging(s.staging, toImage ? kCopySource : kCopyDest);
@@ -190,7 +198,8 @@ void Context::CopyStaging(const TextureRegion& dst, const TextureRegion& src, co
     UseStaging(dst.texture->staging, kCopyDest);
   }
   RecordBarriers();
-  vk_.vkCmdCopyBuffer(cmd_, src.texture->staging.handle, dst.texture->staging.handle, uint32_t(rows.size()), rows.data());
+  vk_.vkCmdCopyBuffer(cmd_, src.texture->staging.handle, dst.texture->staging.handle, uint32_t(rows.size()),
+                      rows.data());
   FinishStaging(src.texture->staging, false);
   FinishStaging(dst.texture->staging, true);
 }
@@ -205,10 +214,12 @@ void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITextur
   const TextureDesc &a = to.Desc(), &b = from.Desc();
   const backend::MipLayout m = backend::GetMipLayout(a, to.One(dstSubresource).mip);
   const bool formats = a.format == b.format && format == a.format && !GetFormatInfo(format).depth;
-  if (!formats || b.sampleCount < 2 || a.sampleCount != 1 || m.width != b.width || m.height != b.height || to.IsStaging())
-    return Complain(MsgCode::FormatMismatch, name,
-                    "ResolveSubresource needs a multisampled source, a single-sampled Default destination of its size, and "
-                    "one colour format for both and in the call");
+  if (!formats || b.sampleCount < 2 || a.sampleCount != 1 || m.width != b.width || m.height != b.height ||
+      to.IsStaging())
+    return Complain(
+        MsgCode::FormatMismatch, name,
+        "ResolveSubresource needs a multisampled source, a single-sampled Default destination of its size, and "
+        "one colour format for both and in the call");
   if (!CheckCopyDest(to.GetUsage(), name)) return;
   LeavePass();
   Use(from, from.One(srcSubresource), kCopySource);
@@ -226,10 +237,12 @@ void Context::GenerateMips(IShaderResourceView* target) {
   if (!view || !view->texture || core_->lost) return;
   Texture& t = *view->texture;
   if (!(t.Desc().bind & Bind::RenderTarget) || !(t.Desc().bind & Bind::ShaderResource))
-    return Complain(MsgCode::WrongBindFlag, t.Name().c_str(), "GenerateMips needs Bind::RenderTarget and ShaderResource");
+    return Complain(MsgCode::WrongBindFlag, t.Name().c_str(),
+                    "GenerateMips needs Bind::RenderTarget and ShaderResource");
   const FormatSupport support = QueryFormatSupport(core_->instance.vk, core_->adapter.handle, t.Desc().format);
   if (!(support & FormatSupport::MipAutogen))
-    return Complain(MsgCode::CapMissing, t.Name().c_str(), "this format has no FormatSupport::MipAutogen on this adapter");
+    return Complain(MsgCode::CapMissing, t.Name().c_str(),
+                    "this format has no FormatSupport::MipAutogen on this adapter");
   LeavePass();
   const SubresourceRange range = view->Range();
   for (uint32_t mip = range.mip + 1; mip < range.mip + range.mips; ++mip) Blit(t, range, mip);

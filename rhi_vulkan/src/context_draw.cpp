@@ -24,34 +24,34 @@ constexpr uint32_t kDirtyChecks = backend::DirtyShaders | backend::DirtyLayout |
 }  // namespace
 
 void Context::Draw(uint32_t vertexCount, uint32_t startVertex) {
-  if ((dirty_ & kDirtyDraw) && !PrepareDraw()) return;
+  if (!ReadyToDraw()) return;
   vk_.vkCmdDraw(cmd_, vertexCount, 1, startVertex, 0);
   ++stats_.draws;
 }
 
 void Context::DrawIndexed(uint32_t indexCount, uint32_t startIndex, int32_t baseVertex) {
-  if (!CheckIndexBuffer() || ((dirty_ & kDirtyDraw) && !PrepareDraw())) return;
+  if (!CheckIndexBuffer() || !ReadyToDraw()) return;
   vk_.vkCmdDrawIndexed(cmd_, indexCount, 1, startIndex, baseVertex, 0);
   ++stats_.draws;
 }
 
 void Context::DrawInstanced(uint32_t vertexCountPerInstance, uint32_t instanceCount, uint32_t startVertex,
                             uint32_t startInstance) {
-  if ((dirty_ & kDirtyDraw) && !PrepareDraw()) return;
+  if (!ReadyToDraw()) return;
   vk_.vkCmdDraw(cmd_, vertexCountPerInstance, instanceCount, startVertex, startInstance);
   ++stats_.draws;
 }
 
 void Context::DrawIndexedInstanced(uint32_t indexCountPerInstance, uint32_t instanceCount, uint32_t startIndex,
                                    int32_t baseVertex, uint32_t startInstance) {
-  if (!CheckIndexBuffer() || ((dirty_ & kDirtyDraw) && !PrepareDraw())) return;
+  if (!CheckIndexBuffer() || !ReadyToDraw()) return;
   vk_.vkCmdDrawIndexed(cmd_, indexCountPerInstance, instanceCount, startIndex, baseVertex, startInstance);
   ++stats_.draws;
 }
 
 void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
   Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawArgs));
-  if (!buffer || ((dirty_ & kDirtyDraw) && !PrepareDraw())) return;
+  if (!buffer || !ReadyToDraw()) return;
   vk_.vkCmdDrawIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset, 1, 0);
   ++stats_.draws;
 }
@@ -59,13 +59,14 @@ void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
 void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
   if (!CheckIndexBuffer()) return;
   Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawIndexedArgs));
-  if (!buffer || ((dirty_ & kDirtyDraw) && !PrepareDraw())) return;
+  if (!buffer || !ReadyToDraw()) return;
   vk_.vkCmdDrawIndexedIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset, 1, 0);
   ++stats_.draws;
 }
 
 bool Context::CheckIndexBuffer() {
-  if (state_.indexBuffer) [[likely]] return true;
+  if (state_.indexBuffer) [[likely]]
+    return true;
   Report(Severity::Error, MsgCode::IndexBufferMissing, "",
          "indexed draw without an index buffer; call IASetIndexBuffer; it is skipped");
   return false;
@@ -89,10 +90,6 @@ Buffer* Context::PrepareIndirect(IBuffer* args, uint32_t offset, uint32_t size) 
 }
 
 bool Context::PrepareDraw() {
-  if ((dirty_ & kDirtyDraw) == kDirtyOffsets) {
-    BindConstantOffsets();
-    return true;
-  }
   if (core_->lost) return false;
   if ((dirty_ & kDirtyChecks) && !CheckDraw()) return false;
   PassTargets targets;
@@ -119,7 +116,8 @@ bool Context::CheckDraw() {
   const auto* vs = static_cast<const Shader*>(state_.shaders[size_t(Stage::Vertex)].get());
   const auto* gs = static_cast<const Shader*>(state_.shaders[size_t(Stage::Geometry)].get());
   if (!vs) {
-    Report(Severity::Error, MsgCode::NoVertexShader, "", "draw without a vertex shader; call VSSetShader; it is skipped");
+    Report(Severity::Error, MsgCode::NoVertexShader, "",
+           "draw without a vertex shader; call VSSetShader; it is skipped");
     return false;
   }
   if (vs->reflection.inputs.size && !state_.layout) {

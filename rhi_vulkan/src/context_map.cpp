@@ -5,37 +5,48 @@
 
 namespace rhi_vulkan {
 
-void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) {
-  auto* buffer = static_cast<Buffer*>(target);
-  if (!buffer || !(buffer->dirtyOnDiscard & kDirtyOffsets) || size > buffer->Desc().byteWidth) [[unlikely]]
-    return RejectUpdate(buffer, size);
-  if (!Discard(*buffer)) [[unlikely]]
-    return;
-  std::memcpy(buffer->slice.Data(), data, size);
-}
-
-void Context::RejectUpdate(const Buffer* buffer, uint32_t size) {
-  if (!buffer) return Report(Severity::Error, MsgCode::NothingBound, "", "UpdateConstants of no buffer");
-  char text[160];
-  std::snprintf(text, sizeof text, "UpdateConstants needs a Dynamic constant buffer of at least %u bytes; this has %u",
-                size, buffer->Desc().byteWidth);
-  Report(Severity::Error, size > buffer->Desc().byteWidth ? MsgCode::OutOfBounds : MsgCode::MapMode,
-         buffer->Name().c_str(), text);
-}
-
-// Gives the buffer fresh memory; draws already recorded keep the old.
-bool Context::Discard(Buffer& buffer) {
-  Slice fresh;
-  if (!ring_.Take(buffer.alignedWidth, &fresh)) [[unlikely]]
+// The hot path, with Draw: fresh memory for the buffer; draws already recorded keep the old.
+inline bool Context::DiscardInPage(Buffer& buffer) {
+  if (!ring_.TakeInPage(buffer.slice.page, buffer.alignedWidth, &buffer.slice.offset)) [[unlikely]]
     return false;
-  if (fresh.page != buffer.slice.page) [[unlikely]] {
-    ring_.Repin(buffer.slice.page, fresh.page);
-    dirty_ |= backend::DirtyConstants;  // another page: another descriptor
-  }
-  buffer.slice = fresh;
+  *buffer.offsetEntry = buffer.slice.offset;
   dirty_ |= buffer.dirtyOnDiscard;
   stats_.ringBytes += buffer.alignedWidth;
   return true;
+}
+
+bool Context::DiscardInNewPage(Buffer& buffer) {
+  Slice fresh;
+  if (!ring_.Take(buffer.alignedWidth, &fresh)) return false;
+  ring_.Repin(buffer.slice.page, fresh.page);
+  buffer.slice = fresh;
+  dirty_ |= backend::DirtyConstants | buffer.dirtyOnDiscard;  // another page: another descriptor
+  stats_.ringBytes += buffer.alignedWidth;
+  return true;
+}
+
+bool Context::Discard(Buffer& buffer) { return DiscardInPage(buffer) || DiscardInNewPage(buffer); }
+
+void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) {
+  auto* buffer = static_cast<Buffer*>(target);
+  if (!buffer || !(buffer->dirtyOnDiscard & kDirtyOffsets) || size > buffer->Desc().byteWidth ||
+      !DiscardInPage(*buffer)) [[unlikely]]
+    return UpdateInNewPage(buffer, data, size);
+  std::memcpy(buffer->slice.Data(), data, size);
+}
+
+// UpdateConstants where the current page is full, or the arguments are wrong.
+void Context::UpdateInNewPage(Buffer* buffer, const void* data, uint32_t size) {
+  if (!buffer) return Report(Severity::Error, MsgCode::NothingBound, "", "UpdateConstants of no buffer");
+  const bool tooLarge = size > buffer->Desc().byteWidth;
+  if ((buffer->dirtyOnDiscard & kDirtyOffsets) && !tooLarge) {
+    if (DiscardInNewPage(*buffer)) std::memcpy(buffer->slice.Data(), data, size);
+    return;
+  }
+  char text[160];
+  std::snprintf(text, sizeof text, "UpdateConstants needs a Dynamic constant buffer of at least %u bytes; this has %u",
+                size, buffer->Desc().byteWidth);
+  Report(Severity::Error, tooLarge ? MsgCode::OutOfBounds : MsgCode::MapMode, buffer->Name().c_str(), text);
 }
 
 Status Context::MapError(MsgCode code, const char* object, const char* text) {
@@ -58,8 +69,9 @@ Status Context::MapBuffer(Buffer& buffer, MapMode mode, Mapped* out) {
   if (buffer.GetUsage() == Usage::Immutable)
     return MapError(MsgCode::ImmutableWrite, name, "an Immutable buffer cannot be mapped");
   if (buffer.IsDynamic() != (discard || append) || (!buffer.IsDynamic() && buffer.GetUsage() != Usage::Staging))
-    return MapError(MsgCode::MapMode, name,
-                    "Dynamic buffers are mapped with WriteDiscard or WriteNoOverwrite, Staging ones with Read or Write");
+    return MapError(
+        MsgCode::MapMode, name,
+        "Dynamic buffers are mapped with WriteDiscard or WriteNoOverwrite, Staging ones with Read or Write");
   if (discard && !Discard(buffer)) return Status::OutOfMemory;
   if (buffer.IsDynamic()) {
     out->data = buffer.slice.Data();

@@ -5,7 +5,8 @@ namespace rhi_vulkan {
 namespace {
 
 bool Overlap(const SubresourceRange& a, const SubresourceRange& b) {
-  return a.mip < b.mip + b.mips && b.mip < a.mip + a.mips && a.slice < b.slice + b.slices && b.slice < a.slice + a.slices;
+  return a.mip < b.mip + b.mips && b.mip < a.mip + a.mips && a.slice < b.slice + b.slices &&
+         b.slice < a.slice + a.slices;
 }
 
 VkRenderingAttachmentInfo Attachment(VkImageView view, VkImageLayout layout) {
@@ -110,7 +111,8 @@ bool Context::GatherTargets(PassTargets* out) {
   }
   out->depth = static_cast<DepthView*>(state_.depthTarget.get());
   if (out->depth) add(*out->depth);
-  if (first) Report(Severity::Error, MsgCode::NoTarget, "", "draw without a target; call OMSetRenderTargets; it is skipped");
+  if (first)
+    Report(Severity::Error, MsgCode::NoTarget, "", "draw without a target; call OMSetRenderTargets; it is skipped");
   if (!same)
     Report(Severity::Error, MsgCode::TargetsDiffer, "",
            "the bound targets differ in size or sample count; the draw is skipped");
@@ -150,8 +152,14 @@ void Context::BeginPass(const PassTargets& targets) {
 void Context::ClearRenderTargetView(IRenderTargetView* target, const float rgba[4]) {
   auto* view = static_cast<TargetView*>(target);
   if (!view) return;
-  PendingClear clear{Ref<IView>(view), view->texture,  view->Range(), view->view, {view->Width(), view->Height()},
-                     view->Layers(),   VK_IMAGE_ASPECT_COLOR_BIT,     {}};
+  PendingClear clear{Ref<IView>(view),
+                     view->texture,
+                     view->Range(),
+                     view->view,
+                     {view->Width(), view->Height()},
+                     view->Layers(),
+                     VK_IMAGE_ASPECT_COLOR_BIT,
+                     {}};
   clear.value.color = ColorOf(view->Desc().format, rgba);
   AddClear(std::move(clear));
 }
@@ -165,8 +173,14 @@ void Context::ClearDepthStencilView(IDepthStencilView* target, bool clearDepth, 
   if (clearStencil) aspects |= VK_IMAGE_ASPECT_STENCIL_BIT;
   aspects &= view->texture->aspects;
   if (!aspects) return;
-  PendingClear clear{Ref<IView>(view), view->texture,  view->Range(), view->view, {view->Width(), view->Height()},
-                     view->Layers(),   aspects,        {}};
+  PendingClear clear{Ref<IView>(view),
+                     view->texture,
+                     view->Range(),
+                     view->view,
+                     {view->Width(), view->Height()},
+                     view->Layers(),
+                     aspects,
+                     {}};
   clear.value.depthStencil = {std::clamp(depth, 0.0f, 1.0f), stencil};
   AddClear(std::move(clear));
 }
@@ -177,7 +191,8 @@ void Context::AddClear(PendingClear clear) {
     if (old.view == clear.view) {  // the later clear of an aspect counts
       if (clear.aspects & VK_IMAGE_ASPECT_COLOR_BIT) old.value = clear.value;
       if (clear.aspects & VK_IMAGE_ASPECT_DEPTH_BIT) old.value.depthStencil.depth = clear.value.depthStencil.depth;
-      if (clear.aspects & VK_IMAGE_ASPECT_STENCIL_BIT) old.value.depthStencil.stencil = clear.value.depthStencil.stencil;
+      if (clear.aspects & VK_IMAGE_ASPECT_STENCIL_BIT)
+        old.value.depthStencil.stencil = clear.value.depthStencil.stencil;
       old.aspects |= clear.aspects;
       return;
     }

@@ -59,7 +59,8 @@ void Context::End(IQuery* target) {
   if (!query) return;
   const bool needsBegin = IsRange(query->Type()) || query->Type() == QueryType::TimestampDisjoint;
   if (needsBegin && !query->active) {
-    log_.Report(Severity::Error, MsgCode::QueryOrder, query->Name().c_str(), "End of a query without Begin; it is ignored");
+    log_.Report(Severity::Error, MsgCode::QueryOrder, query->Name().c_str(),
+                "End of a query without Begin; it is ignored");
     return;
   }
   query->active = false;

@@ -9,14 +9,6 @@ constexpr uint32_t kMaxWrites = 32;  // 16 t and 16 s registers; u registers are
 
 }  // namespace
 
-void Context::BindConstantOffsets() {
-  const std::array<uint32_t, kMaxConstantBuffers> offsets{constantSlices_[0]->offset, constantSlices_[1]->offset,
-                                                          constantSlices_[2]->offset, constantSlices_[3]->offset};
-  vk_.vkCmdBindDescriptorSets(cmd_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_->layout, kVkConstantSet, 1, &constantSet_,
-                              uint32_t(offsets.size()), offsets.data());
-  dirty_ &= ~kDirtyOffsets;
-}
-
 bool Context::BindConstants() {
   if ((dirty_ & backend::DirtyConstants) || !constantSet_) constantSet_ = ConstantSet();
   if (!constantSet_) return false;
@@ -24,14 +16,29 @@ bool Context::BindConstants() {
   return true;
 }
 
-// The set for the buffers (or ring pages) in b0..b3; also notes where their offsets are found.
+// Makes `buffer` keep the slot's offset up to date. One that is in two slots keeps the later; DirtyConstants sees to
+// the other, because then every discard looks for the set again.
+void Context::OwnOffset(uint32_t slot, Buffer* buffer) {
+  uint32_t* entry = &constantOffsets_[slot];
+  auto* old = static_cast<Buffer*>(offsetOwners_[slot].get());
+  if (old && old != buffer && old->offsetEntry == entry) old->offsetEntry = &old->unboundOffset;
+  *entry = buffer ? buffer->slice.offset : 0;
+  if (buffer && buffer->IsDynamic()) {
+    const bool elsewhere = buffer->offsetEntry != &buffer->unboundOffset && buffer->offsetEntry != entry;
+    buffer->dirtyOnDiscard = kDirtyOffsets | (elsewhere ? uint32_t(backend::DirtyConstants) : 0u);
+    buffer->offsetEntry = entry;
+  }
+  offsetOwners_[slot] = Ref<IBuffer>(buffer);
+}
+
+// The set for the buffers (or ring pages) in b0..b3; also notes their offsets.
 VkDescriptorSet Context::ConstantSet() {
   writes_.clear();
   setKey_.Clear();
   setKey_.Add(~0ull);  // no stage's set begins so
   for (uint32_t i = 0; i < kMaxConstantBuffers; ++i) {
-    const auto* buffer = static_cast<const Buffer*>(state_.constants[i].get());
-    constantSlices_[i] = buffer ? &buffer->slice : &zeroSlice_;
+    auto* buffer = static_cast<Buffer*>(state_.constants[i].get());
+    OwnOffset(i, buffer);
     const VkBuffer handle = buffer ? buffer->Handle() : null_.zeros.handle;
     const uint32_t range = buffer ? AlignUp(buffer->Desc().byteWidth, 16u) : kMaxConstantBufferBytes;
     AddBuffer(i, handle, 0, range, !buffer ? 0 : buffer->IsDynamic() ? buffer->slice.page->id : buffer->id);
@@ -84,7 +91,8 @@ void Context::AddResource(Stage stage, const ShaderResource& r) {
     view = nullptr;
   }
   if (!view)
-    Report(Severity::Warning, MsgCode::NothingBound, r.name, "the shader reads a t register with nothing bound; it reads 0");
+    Report(Severity::Warning, MsgCode::NothingBound, r.name,
+           "the shader reads a t register with nothing bound; it reads 0");
   if (wantsTexture) {
     const bool depth = view && GetFormatInfo(view->Desc().format).depth;
     const VkImageView handle = view ? view->view : NullView(r.dim, r.integer);
@@ -102,7 +110,8 @@ void Context::AddResource(Stage stage, const ShaderResource& r) {
 void Context::AddSampler(Stage stage, const ShaderSampler& s) {
   const auto* sampler = static_cast<const Sampler*>(state_.samplers[size_t(stage)][s.slot].get());
   if (!sampler) sampler = static_cast<const Sampler*>(null_.sampler.get());
-  AddImage(kVkSamplerBinding + s.slot, VK_DESCRIPTOR_TYPE_SAMPLER, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED, sampler->id);
+  AddImage(kVkSamplerBinding + s.slot, VK_DESCRIPTOR_TYPE_SAMPLER, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED,
+           sampler->id);
   imageInfos_[writes_.size() - 1].sampler = sampler->handle;
 }
 

@@ -45,7 +45,6 @@ Context::Context(VulkanDevice& device, std::shared_ptr<Core> core, uint32_t fram
       vk_(core_->vk),
       ring_(*core_->ring),
       framesInFlight_(std::max(1u, framesInFlight)) {
-  constantSlices_.fill(&zeroSlice_);
   constantStages_ = StageBits(Stage::Vertex) | StageBits(Stage::Pixel);
   if (core_->adapter.caps.geometryShader) constantStages_ |= StageBits(Stage::Geometry);
 }
@@ -54,6 +53,7 @@ Context::~Context() {
   running_ = {};
   active_ = {};
   clears_.clear();
+  for (uint32_t slot = 0; slot < kMaxConstantBuffers; ++slot) OwnOffset(slot, nullptr);
   ContextBase::ClearState();
   for (auto& views : null_.views)
     for (VkImageView view : views)
@@ -63,9 +63,8 @@ Context::~Context() {
 }
 
 Status Context::Init() {
-  constexpr VkBufferUsageFlags kUsage =
-      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-      VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+  constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                        VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
   for (GpuBuffer* buffer : {&null_.zeros, &null_.sink}) {
     const Status s = buffer->Create(*core_, "rhi unbound", kMaxConstantBufferBytes, kUsage, MemoryKind::Upload);
     if (s != Status::Ok) return s;

@@ -132,7 +132,8 @@ bool Context::Upload(VkCommandBuffer cmd, Texture& texture, uint32_t subresource
   Slice slice;
   if (!texture.IsStaging() && (size > 0xF0000000u || !ring_.Take(AlignUp(uint32_t(size), ring_.Alignment()), &slice)))
     return false;
-  uint8_t* out = texture.IsStaging() ? texture.staging.memory.mapped + texture.stagingOffset[subresource] : slice.Data();
+  uint8_t* out =
+      texture.IsStaging() ? texture.staging.memory.mapped + texture.stagingOffset[subresource] : slice.Data();
   for (uint32_t z = 0; z < m.depth; ++z)
     for (uint32_t row = 0; row < m.rows; ++row, out += m.rowBytes)
       std::memcpy(out, static_cast<const uint8_t*>(data.data) + size_t(z) * slicePitch + size_t(row) * rowPitch,

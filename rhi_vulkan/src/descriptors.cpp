@@ -56,8 +56,8 @@ VkPipelineLayout LayoutCache::GetPipelineLayout(const std::array<const SetLayout
   info.setLayoutCount = uint32_t(handles.size());
   info.pSetLayouts = handles.data();
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  if (core_.Check(core_.vk.vkCreatePipelineLayout(core_.device, &info, nullptr, &layout), "", "vkCreatePipelineLayout") !=
-      Status::Ok)
+  if (core_.Check(core_.vk.vkCreatePipelineLayout(core_.device, &info, nullptr, &layout), "",
+                  "vkCreatePipelineLayout") != Status::Ok)
     return VK_NULL_HANDLE;
   pipelines_.push_back({sets, layout});
   return layout;

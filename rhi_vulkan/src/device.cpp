@@ -88,7 +88,8 @@ Status VulkanDevice::CreateTextureView(Texture* texture, const ViewDesc* desc, B
 template <class Interface>
 Status VulkanDevice::CreateBufferView(Buffer* buffer, const ViewDesc* desc, Bind need, Ref<Interface>* out) {
   ViewDesc resolved;
-  if (Status s = backend::ResolveBufferView(buffer->Desc(), desc, need, &resolved, core_->log); s != Status::Ok) return s;
+  if (Status s = backend::ResolveBufferView(buffer->Desc(), desc, need, &resolved, core_->log); s != Status::Ok)
+    return s;
   const VkDeviceSize alignment = core_->adapter.properties.limits.minStorageBufferOffsetAlignment;
   if (VkDeviceSize(resolved.firstElement) * buffer->Desc().structureStride % alignment != 0)
     return Refuse(Status::Unsupported, MsgCode::CapMissing, buffer->Name().c_str(),
@@ -106,7 +107,8 @@ Status VulkanDevice::CreateView(IResource* resource, const ViewDesc* desc, Bind 
   return CreateTextureView(static_cast<Texture*>(resource), desc, need, out);
 }
 
-Status VulkanDevice::CreateShaderResourceView(IResource* resource, const ViewDesc* desc, Ref<IShaderResourceView>* out) {
+Status VulkanDevice::CreateShaderResourceView(IResource* resource, const ViewDesc* desc,
+                                              Ref<IShaderResourceView>* out) {
   return CreateView(resource, desc, Bind::ShaderResource, out);
 }
 
@@ -118,7 +120,8 @@ Status VulkanDevice::CreateDepthStencilView(ITexture* texture, const ViewDesc* d
   return CreateView(texture, desc, Bind::DepthStencil, out);
 }
 
-Status VulkanDevice::CreateUnorderedAccessView(IResource* resource, const ViewDesc* desc, Ref<IUnorderedAccessView>* out) {
+Status VulkanDevice::CreateUnorderedAccessView(IResource* resource, const ViewDesc* desc,
+                                               Ref<IUnorderedAccessView>* out) {
   if (resource && !AsBuffer(resource)) {  // a storage image shows exactly one mip
     ViewDesc one = desc ? *desc : ViewDesc{};
     if (one.mipCount == kAllMips) one.mipCount = 1;
@@ -138,7 +141,8 @@ Status VulkanDevice::CreateInputLayout(const InputElement* elements, uint32_t co
                                        Ref<IInputLayout>* out) {
   *out = nullptr;
   if (!vs || vs->GetStage() != Stage::Vertex || count > kMaxVertexElements)
-    return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "", "an input layout needs a vertex shader and at most 16 elements");
+    return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "",
+                  "an input layout needs a vertex shader and at most 16 elements");
   std::vector<LayoutElement> resolved;
   const Status s = ResolveElements(elements, count, static_cast<Shader&>(*vs), *core_, &resolved);
   if (s != Status::Ok) return s;
@@ -176,6 +180,8 @@ Status VulkanDevice::CreateRasterizerState(const RasterizerDesc& desc, Ref<IRast
 
 Status VulkanDevice::CreateSamplerState(const SamplerDesc& desc, Ref<ISamplerState>* out) {
   *out = nullptr;
+  if (desc.maxAniso < 1 || desc.maxAniso > 16)
+    return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "", "SamplerDesc::maxAniso must be 1 to 16");
   Ref<Sampler> sampler = core_->states->samplers.Find(desc);
   if (sampler) return Give(sampler, Status::Ok, out);
   sampler = Ref<Sampler>::Adopt(new Sampler(core_, desc));
@@ -200,7 +206,8 @@ Status VulkanDevice::CreateSwapChain(const SwapChainDesc&, Ref<ISwapChain>* out)
 
 Status VulkanDevice::PrecachePipeline(const PipelineKeyDesc& d) {
   if (!d.vs || d.rtvCount > kMaxRenderTargets)
-    return Refuse(Status::InvalidArg, MsgCode::NoVertexShader, "", "PrecachePipeline needs a vertex shader and at most 8 targets");
+    return Refuse(Status::InvalidArg, MsgCode::NoVertexShader, "",
+                  "PrecachePipeline needs a vertex shader and at most 8 targets");
   const auto shader = [](IShader* s) { return static_cast<Shader*>(s); };
   const auto id = [](const auto* object) { return object ? object->id : 0u; };
   const auto* layout = static_cast<const InputLayout*>(d.layout);

@@ -32,16 +32,16 @@ Status ChooseAdapter(Core& core, const DeviceDesc& desc) {
   for (VkPhysicalDevice physical : core.instance.PhysicalDevices()) {
     adapters.push_back(DescribeAdapter(core.instance, physical));
     const Caps& c = adapters.back().caps;
-    seen += (seen.empty() ? "" : ", ") + std::string(c.adapter.data()) + " (Vulkan " + std::to_string(c.apiMajor) + "." +
-            std::to_string(c.apiMinor) + ")";
+    seen += (seen.empty() ? "" : ", ") + std::string(c.adapter.data()) + " (Vulkan " + std::to_string(c.apiMajor) +
+            "." + std::to_string(c.apiMinor) + ")";
   }
   if (const Adapter* chosen = Choose(adapters, desc)) {
     core.adapter = *chosen;
     return Status::Ok;
   }
-  core.log.Report(Severity::Error, MsgCode::DeviceUnavailable, "",
-                  "no Vulkan 1.3 adapter%s%s; the loader lists: %s", desc.adapter && *desc.adapter ? " named like " : "",
-                  desc.adapter ? desc.adapter : "", seen.empty() ? "none" : seen.c_str());
+  core.log.Report(Severity::Error, MsgCode::DeviceUnavailable, "", "no Vulkan 1.3 adapter%s%s; the loader lists: %s",
+                  desc.adapter && *desc.adapter ? " named like " : "", desc.adapter ? desc.adapter : "",
+                  seen.empty() ? "none" : seen.c_str());
   return Status::Unsupported;
 }
 
@@ -71,8 +71,8 @@ Status CreateVkDevice(Core& core, bool forDisplay) {
   info.pQueueCreateInfos = &queue;
   info.enabledExtensionCount = uint32_t(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
-  return core.Check(vki.vkCreateDevice(core.adapter.handle, &info, nullptr, &core.device), core.adapter.caps.adapter.data(),
-                    "vkCreateDevice");
+  return core.Check(vki.vkCreateDevice(core.adapter.handle, &info, nullptr, &core.device),
+                    core.adapter.caps.adapter.data(), "vkCreateDevice");
 }
 
 void LoadDeviceTable(Core& core) {

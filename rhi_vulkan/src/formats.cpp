@@ -41,9 +41,11 @@ FormatSupport TextureSupport(VkFormatFeatureFlags f) {
   const bool linear = f & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
   const bool color = f & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
   return When(f & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, FormatSupport::Texture2D | FormatSupport::Sample) |
-         When(linear, FormatSupport::SampleLinear) | When(color, FormatSupport::Texture2D | FormatSupport::RenderTarget) |
+         When(linear, FormatSupport::SampleLinear) |
+         When(color, FormatSupport::Texture2D | FormatSupport::RenderTarget) |
          When(f & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, FormatSupport::Blendable) |
-         When(f & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, FormatSupport::Texture2D | FormatSupport::DepthStencil) |
+         When(f & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
+              FormatSupport::Texture2D | FormatSupport::DepthStencil) |
          When(f & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, FormatSupport::UnorderedAccess) |
          When(blit && linear && color, FormatSupport::MipAutogen);
 }

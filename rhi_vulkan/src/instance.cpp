@@ -62,8 +62,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL OnDebugMessage(VkDebugUtilsMessageSeverityFlagBit
     if (data->pObjects[i].pObjectName) object = data->pObjects[i].pObjectName;
   const bool error = severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   static_cast<const MessageLog*>(user)->Forward({error ? Severity::Error : Severity::Warning, MsgCode::ApiValidation,
-                                                 object, data->pMessage ? data->pMessage : "",
-                                                 data->messageIdNumber});
+                                                 object, data->pMessage ? data->pMessage : "", data->messageIdNumber});
   return VK_FALSE;
 }
 

@@ -54,7 +54,8 @@ bool MemoryBlock::Take(VkDeviceSize need, VkDeviceSize alignment, VkDeviceSize* 
 }
 
 void MemoryBlock::Give(VkDeviceSize offset, VkDeviceSize bytes) {
-  auto next = std::lower_bound(free.begin(), free.end(), offset, [](const Range& r, VkDeviceSize o) { return r.offset < o; });
+  auto next =
+      std::lower_bound(free.begin(), free.end(), offset, [](const Range& r, VkDeviceSize o) { return r.offset < o; });
   next = free.insert(next, {offset, bytes});
   if (auto after = next + 1; after != free.end() && next->offset + next->size == after->offset) {
     next->size += after->size;
@@ -157,8 +158,8 @@ void Allocator::Free(const Allocation& allocation) {
   if (!block->Empty()) return;
   // One empty block of a kind is kept, so that a frame that makes and drops a resource does not allocate.
   const bool spare = std::any_of(blocks_.begin(), blocks_.end(), [&](const auto& b) {
-    return b.get() != block && b->type == block->type && b->image == block->image && b->hostMapped == block->hostMapped &&
-           b->Empty();
+    return b.get() != block && b->type == block->type && b->image == block->image &&
+           b->hostMapped == block->hostMapped && b->Empty();
   });
   if (spare || block->size > kBlockBytes) DestroyBlock(block);
 }

@@ -77,7 +77,8 @@ Status PipelineCache::Init(const void* blob, size_t size) {
     core_.log.Report(Severity::Info, MsgCode::None, "",
                      "the pipeline cache blob is of another driver or adapter, or damaged; it is ignored");
   }
-  return core_.Check(core_.vk.vkCreatePipelineCache(core_.device, &info, nullptr, &cache_), "", "vkCreatePipelineCache");
+  return core_.Check(core_.vk.vkCreatePipelineCache(core_.device, &info, nullptr, &cache_), "",
+                     "vkCreatePipelineCache");
 }
 
 const Pipeline& PipelineCache::Get(const PipelineKey& key, const PipelineParts& parts) {

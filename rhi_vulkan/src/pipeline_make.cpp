@@ -175,10 +175,9 @@ constexpr auto kDynamic = std::to_array<VkDynamicState>(
     {VK_DYNAMIC_STATE_VIEWPORT_WITH_COUNT, VK_DYNAMIC_STATE_SCISSOR_WITH_COUNT, VK_DYNAMIC_STATE_BLEND_CONSTANTS,
      VK_DYNAMIC_STATE_STENCIL_REFERENCE, VK_DYNAMIC_STATE_STENCIL_COMPARE_MASK, VK_DYNAMIC_STATE_STENCIL_WRITE_MASK,
      VK_DYNAMIC_STATE_DEPTH_BIAS, VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE,
-     VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
-     VK_DYNAMIC_STATE_DEPTH_TEST_ENABLE, VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE, VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
-     VK_DYNAMIC_STATE_STENCIL_TEST_ENABLE, VK_DYNAMIC_STATE_STENCIL_OP, VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
-     VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
+     VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY, VK_DYNAMIC_STATE_DEPTH_TEST_ENABLE, VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
+     VK_DYNAMIC_STATE_DEPTH_COMPARE_OP, VK_DYNAMIC_STATE_STENCIL_TEST_ENABLE, VK_DYNAMIC_STATE_STENCIL_OP,
+     VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE, VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
      // Last: a pipeline without vertex buffers leaves it out, because nobody would set it.
      VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE});
 
@@ -227,7 +226,8 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   info.layout = out.layout;
   ++made;
   const VkResult result = core_.vk.vkCreateGraphicsPipelines(core_.device, cache_, 1, &info, nullptr, &out.handle);
-  if (core_.Check(result, parts.vs->Name().c_str(), "vkCreateGraphicsPipelines") != Status::Ok) out.handle = VK_NULL_HANDLE;
+  if (core_.Check(result, parts.vs->Name().c_str(), "vkCreateGraphicsPipelines") != Status::Ok)
+    out.handle = VK_NULL_HANDLE;
   return out;
 }
 

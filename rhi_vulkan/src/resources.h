@@ -36,7 +36,9 @@ class Buffer final : public VkObject<IBuffer> {
   Slice slice;                // dynamic buffers: the current contents
   uint32_t alignedWidth = 0;  // dynamic buffers: what a slice takes of the ring; else 0
   uint32_t dirtyOnDiscard = 0;
-  GpuBuffer gpu;  // all others
+  uint32_t unboundOffset = 0;
+  uint32_t* offsetEntry = &unboundOffset;  // constant buffers: the context's entry to keep up to date
+  GpuBuffer gpu;                           // all others
   bool mapped = false;
   const uint64_t id;
 

@@ -57,6 +57,7 @@ bool Ring::TakeFromNewPage(uint32_t alignedSize, Slice* out) {
     busy_.push_back(current_);
   }
   current_ = page;
+  currentSize_ = page->size;
   head_ = alignedSize;
   *out = {page, 0};
   return true;

@@ -37,20 +37,29 @@ class Ring {
 
   // `alignedSize` is a multiple of Alignment(). False: out of memory.
   bool Take(uint32_t alignedSize, Slice* out) {
-    if (current_ && alignedSize <= current_->size - head_) [[likely]] {
+    if (alignedSize <= currentSize_ - head_) [[likely]] {
       *out = {current_, head_};
       head_ += alignedSize;
       return true;
     }
     return TakeFromNewPage(alignedSize, out);
   }
+  // The same for contents that lie in `page` now: succeeds if that is the current page and has room.
+  bool TakeInPage(const RingPage* page, uint32_t alignedSize, uint32_t* offset) {
+    const uint32_t end = head_ + alignedSize;
+    if (page != current_ || end > currentSize_) [[unlikely]]
+      return false;
+    *offset = head_;
+    head_ = end;
+    return true;
+  }
   uint32_t Alignment() const { return alignment_; }
 
   // Moves a dynamic buffer's contents from one page to another; either may be null.
   void Repin(RingPage* from, RingPage* to);
 
-  void OnSubmit(uint64_t serial);        // `serial` is what was just submitted
-  void Collect(uint64_t completed);      // pages may be used again
+  void OnSubmit(uint64_t serial);    // `serial` is what was just submitted
+  void Collect(uint64_t completed);  // pages may be used again
 
  private:
   bool TakeFromNewPage(uint32_t alignedSize, Slice* out);
@@ -58,7 +67,7 @@ class Ring {
   void DestroyPage(RingPage&);
 
   Core& core_;
-  uint32_t pageBytes_, alignment_, head_ = 0;
+  uint32_t pageBytes_, alignment_, head_ = 0, currentSize_ = 0;
   RingPage* current_ = nullptr;
   std::vector<std::unique_ptr<RingPage>> pages_;  // all of them
   std::vector<RingPage*> free_;                   // of pageBytes_ each

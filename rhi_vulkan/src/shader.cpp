@@ -58,8 +58,7 @@ void SplitRegisters(const ShaderReflection& r, std::vector<SetBinding>* inputs, 
         uavs->push_back({kVkUavBinding + t.slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
         break;
     }
-  for (const ShaderSampler& s : r.samplers)
-    inputs->push_back({kVkSamplerBinding + s.slot, VK_DESCRIPTOR_TYPE_SAMPLER});
+  for (const ShaderSampler& s : r.samplers) inputs->push_back({kVkSamplerBinding + s.slot, VK_DESCRIPTOR_TYPE_SAMPLER});
   const auto byBinding = [](const SetBinding& a, const SetBinding& b) { return a.binding < b.binding; };
   std::sort(inputs->begin(), inputs->end(), byBinding);
   std::sort(uavs->begin(), uavs->end(), byBinding);
@@ -101,7 +100,8 @@ Status Shader::CheckCaps(const ShaderBlob& blob) const {
   if (stage_ == Stage::Geometry && !caps.geometryShader)
     missing = "this adapter has no geometry shaders (Caps::geometryShader); use the vertex-pulling variant";
   if (stage_ == Stage::Geometry && caps.geometryShader &&
-      (r.gsMaxVertices > caps.maxGSOutputVertices || r.gsMaxVertices * r.gsOutputComponents > caps.maxGSOutputComponents))
+      (r.gsMaxVertices > caps.maxGSOutputVertices ||
+       r.gsMaxVertices * r.gsOutputComponents > caps.maxGSOutputComponents))
     missing = "the geometry shader's maxvertexcount exceeds Caps::maxGSOutputVertices or maxGSOutputComponents";
   if (stage_ != Stage::Geometry && r.writesLayer && !caps.layeredRendering)
     missing = "SV_RenderTargetArrayIndex needs Caps::layeredRendering";
@@ -114,7 +114,8 @@ Status Shader::Create(const ShaderBlob& blob) {
   if (Status s = CheckCaps(blob); s != Status::Ok) return s;
   if (blob.spirv.size <= kHeaderWords || blob.spirv[0] != kSpirvMagic || !RegistersInRange(reflection)) {
     core_->log.Report(Severity::Error, MsgCode::ShaderRejected, blob.name,
-                      "no SPIR-V (%u words), or registers out of range; make the blob with fur_add_shaders", blob.spirv.size);
+                      "no SPIR-V (%u words), or registers out of range; make the blob with fur_add_shaders",
+                      blob.spirv.size);
     return Status::InvalidArg;
   }
   VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};

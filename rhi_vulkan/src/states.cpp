@@ -1,7 +1,8 @@
 #include "states.h"
 
-#include <cstring>
 #include <strings.h>
+
+#include <cstring>
 
 #include "formats.h"
 
@@ -75,8 +76,8 @@ Status CheckElement(const InputElement& e, const Core& core) {
   }
   const VkPhysicalDevice physical = core.adapter.handle;
   if (QueryFormatSupport(core.instance.vk, physical, e.format) & FormatSupport::VertexBuffer) return Status::Ok;
-  core.log.Report(Severity::Error, MsgCode::CapMissing, "", "element %s%u: %s is not offered for vertex buffers", e.semantic,
-                  e.semanticIndex, rhi::ToString(e.format));
+  core.log.Report(Severity::Error, MsgCode::CapMissing, "", "element %s%u: %s is not offered for vertex buffers",
+                  e.semantic, e.semanticIndex, rhi::ToString(e.format));
   return Status::Unsupported;
 }
 
@@ -147,7 +148,8 @@ Status ResolveElements(const InputElement* elements, uint32_t count, const Shade
     const InputElement* e = FindElement(elements, count, input);
     if (!e) {
       core.log.Report(Severity::Error, MsgCode::LayoutMismatch, vs.Name().c_str(),
-                      "the vertex shader reads %s%u, which no element gives; add one", input.semantic, input.semanticIndex);
+                      "the vertex shader reads %s%u, which no element gives; add one", input.semantic,
+                      input.semanticIndex);
       return Status::InvalidArg;
     }
     if (Status s = CheckElement(*e, core); s != Status::Ok) return s;

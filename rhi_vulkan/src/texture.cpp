@@ -88,10 +88,11 @@ Status Texture::CreateImage() {
   const VkResult possible = core_->instance.vk.vkGetPhysicalDeviceImageFormatProperties(
       core_->adapter.handle, info.format, info.imageType, info.tiling, info.usage, info.flags, &p);
   if (possible != VK_SUCCESS || !(p.sampleCounts & info.samples)) {
-    core_->log.Report(Severity::Error, MsgCode::CapMissing, desc_.name,
-                      "%s with these bind flags and %u samples is not offered by this adapter; ask CheckFormatSupport and "
-                      "CheckMultisample",
-                      ToString(desc_.format), desc_.sampleCount);
+    core_->log.Report(
+        Severity::Error, MsgCode::CapMissing, desc_.name,
+        "%s with these bind flags and %u samples is not offered by this adapter; ask CheckFormatSupport and "
+        "CheckMultisample",
+        ToString(desc_.format), desc_.sampleCount);
     return Status::Unsupported;
   }
   states_.resize(SubresourceCount());
@@ -118,7 +119,9 @@ Status Texture::CreateStaging() {
                         MemoryKind::Readback);
 }
 
-VkImageSubresourceLayers Texture::Layers(const SubresourceRange& r) const { return {aspects, r.mip, r.slice, r.slices}; }
+VkImageSubresourceLayers Texture::Layers(const SubresourceRange& r) const {
+  return {aspects, r.mip, r.slice, r.slices};
+}
 
 void Texture::Advance(const SubresourceRange& r, const Access& use, BarrierBatch& batch) {
   const bool whole = r.mips == desc_.mipLevels && r.slices == Slices();

@@ -154,8 +154,8 @@ TEST_F(GltfFur, DefaultLengthAndTilesFollowTheModelsSize) {
   const FurParams params = Params({});
   const double diameter = std::sqrt(2.0);
   EXPECT_NEAR(params.length, 0.025 * diameter, 1e-9);
-  // The square's UVs cover it once: a UV unit is one long, a tile covers 1.3 lengths.
-  EXPECT_EQ(params.layerUvScale, std::round(1 / (1.3 * 0.025 * diameter)));
+  // The square's UVs cover it once: a UV unit is one long, a tile covers four lengths.
+  EXPECT_EQ(params.layerUvScale, std::round(1 / (4 * 0.025 * diameter)));
   b.json["nodes"][0]["scale"] = {20, 20, 20};
   EXPECT_NEAR(Params({}).length, 0.025 * diameter, 1e-9) << "in the primitive's own units";
   EXPECT_EQ(Params({}).layerUvScale, params.layerUvScale);

@@ -9,7 +9,8 @@ using namespace rhi;
 class BindingTest : public RhiTest {
  protected:
   Ref<ITexture> Solid(const Rgba8& value) {
-    return gpu.TextureOf<Rgba8>({.width = 2, .height = 2, .format = Format::RGBA8_UNorm}, [=](auto, auto, auto, auto) { return value; });
+    return gpu.TextureOf<Rgba8>({.width = 2, .height = 2, .format = Format::RGBA8_UNorm},
+                                [=](auto, auto, auto, auto) { return value; });
   }
   static auto All(const Rgba8& value) {
     return [=](uint32_t, uint32_t) { return value; };
@@ -40,8 +41,15 @@ TEST_P(BindingTest, BoundTargetCannotBecomeAnInput) {
 }
 
 TEST_P(BindingTest, OtherSubresourcesAreNoHazard) {
-  const Ref<ITexture> t = gpu.TextureOf<Rgba8>({.dim = TextureDim::Tex2DArray, .width = 4, .height = 4, .depthOrArray = 2, .format = Format::RGBA8_UNorm,
-                                                .bind = Bind::RenderTarget | Bind::ShaderResource}, [](auto, auto, auto, uint32_t s) { return Rgba8{uint8_t(50 + s), 0, 0, 255}; });
+  const Ref<ITexture> t = gpu.TextureOf<Rgba8>({.dim = TextureDim::Tex2DArray,
+                                                .width = 4,
+                                                .height = 4,
+                                                .depthOrArray = 2,
+                                                .format = Format::RGBA8_UNorm,
+                                                .bind = Bind::RenderTarget | Bind::ShaderResource},
+                                               [](auto, auto, auto, uint32_t s) {
+                                                 return Rgba8{uint8_t(50 + s), 0, 0, 255};
+                                               });
   const ViewDesc one{.firstSlice = 0, .sliceCount = 1}, two{.firstSlice = 1, .sliceCount = 1};
   const Ref<IRenderTargetView> rtv = gpu.TargetView(t.get(), &one);
   const Ref<IShaderResourceView> srv = gpu.View(t.get(), &two);
@@ -65,7 +73,11 @@ TEST_P(BindingTest, PingPong) {
     gpu.SetTexture(Stage::Pixel, 0, (i % 2 ? b : a).color.get());
     gpu.DrawRect(test_shaders::sample_PSLoad);
     BlendDesc add;
-    add.rt[0] = {.enable = true, .src = rhi::Blend::One, .dest = rhi::Blend::One, .srcAlpha = rhi::Blend::One, .destAlpha = rhi::Blend::One};
+    add.rt[0] = {.enable = true,
+                 .src = rhi::Blend::One,
+                 .dest = rhi::Blend::One,
+                 .srcAlpha = rhi::Blend::One,
+                 .destAlpha = rhi::Blend::One};
     context.OMSetBlendState(gpu.Blend(add).get());
     gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0, 0.1f, 0, 0}});
     context.OMSetBlendState(nullptr);
@@ -109,7 +121,9 @@ TEST_P(BindingTest, OutOfBoundsReadsZero) {
   gpu.SetTarget(target);
   gpu.SetTexture(Stage::Pixel, 0, b.get());
   gpu.DrawRect(test_shaders::buffers_PSItem);
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 4 ? Rgba8{255, 255, 255, 255} : Rgba8{0, 0, 0, 0}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
+    return x < 4 ? Rgba8{255, 255, 255, 255} : Rgba8{0, 0, 0, 0};
+  }));
 }
 
 TEST_P(BindingTest, ViewOfSomeElements) {
@@ -123,7 +137,9 @@ TEST_P(BindingTest, ViewOfSomeElements) {
   gpu.SetTarget(target);
   context.PSSetShaderResources(0, 1, &raw);
   gpu.DrawRect(test_shaders::buffers_PSItem);
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 8 ? Rgba8{uint8_t(16 + x), 0, 0, 255} : Rgba8{0, 0, 0, 0}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
+    return x < 8 ? Rgba8{uint8_t(16 + x), 0, 0, 255} : Rgba8{0, 0, 0, 0};
+  }));
 }
 
 TEST_P(BindingTest, TwoBuffersOfOneShader) {
@@ -134,16 +150,19 @@ TEST_P(BindingTest, TwoBuffersOfOneShader) {
   gpu.SetTexture(Stage::Pixel, 0, a.get());
   gpu.SetTexture(Stage::Pixel, 5, b.get());
   gpu.DrawRect(test_shaders::buffers_PSTwoBuffers);
-  EXPECT_TRUE(Matches(gpu.Read(target), [](auto, uint32_t y) { return y == 0 ? Rgba8{255, 0, 0, 255} : Rgba8{0, 255, 0, 255}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](auto, uint32_t y) {
+    return y == 0 ? Rgba8{255, 0, 0, 255} : Rgba8{0, 255, 0, 255};
+  }));
 }
 
 // t1 and s1 of the vertex shader are others than t1 and s1 of the pixel shader.
 TEST_P(BindingTest, RegistersAreOfEachStage) {
   const auto halves = [&](uint8_t left, uint8_t right) {
-    return gpu.TextureOf<Rgba8>({.width = 2, .height = 1, .format = Format::RGBA8_UNorm}, [=](uint32_t x, auto, auto, auto) {
-      const uint8_t v = x ? right : left;
-      return Rgba8{v, v, v, v};
-    });
+    return gpu.TextureOf<Rgba8>({.width = 2, .height = 1, .format = Format::RGBA8_UNorm},
+                                [=](uint32_t x, auto, auto, auto) {
+                                  const uint8_t v = x ? right : left;
+                                  return Rgba8{v, v, v, v};
+                                });
   };
   const Target target = gpu.MakeTarget({});
   gpu.SetTarget(target);

@@ -47,7 +47,8 @@ Rgba8 Oracle(const RenderTargetBlend& b) {
   Rgba8 result;
   for (size_t c = 0; c < 4; ++c) {
     const bool alpha = c == 3;
-    const double fs = FactorOf(alpha ? b.srcAlpha : b.src, c, kSource, d), fd = FactorOf(alpha ? b.destAlpha : b.dest, c, kSource, d);
+    const double fs = FactorOf(alpha ? b.srcAlpha : b.src, c, kSource, d),
+                 fd = FactorOf(alpha ? b.destAlpha : b.dest, c, kSource, d);
     result[c] = ToUnorm8(Apply(alpha ? b.opAlpha : b.op, kSource[c], d[c], fs, fd));
   }
   return result;
@@ -79,31 +80,36 @@ class BlendTest : public RhiTest {
     const float factor[4] = {float(kFactor[0]), float(kFactor[1]), float(kFactor[2]), float(kFactor[3])};
     context.OMSetBlendState(gpu.Blend(desc).get(), factor);
     const float left = float(cases.size()) / 32 - 1;
-    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {float(kSource[0]), float(kSource[1]), float(kSource[2]), float(kSource[3])},
-                                             .rectangle = {left, 1, left + 1 / 32.f, -1}});
+    gpu.DrawRect(test_shaders::rect_PSTint,
+                 {.tint = {float(kSource[0]), float(kSource[1]), float(kSource[2]), float(kSource[3])},
+                  .rectangle = {left, 1, left + 1 / 32.f, -1}});
     cases.push_back(b);
   }
   void ExpectAll() {
-    EXPECT_TRUE(Matches(gpu.Read(target), [this](uint32_t x, auto) { return x < cases.size() ? Oracle(cases[x]) : Rgba8{kDest}; }, 1));
+    EXPECT_TRUE(Matches(
+        gpu.Read(target), [this](uint32_t x, auto) { return x < cases.size() ? Oracle(cases[x]) : Rgba8{kDest}; }, 1));
   }
   Target target;
   std::vector<RenderTargetBlend> cases;
 };
 
-constexpr B kFactors[] = {B::Zero,      B::One,          B::SrcColor,  B::InvSrcColor,  B::SrcAlpha,    B::InvSrcAlpha,    B::DestAlpha,
-                          B::InvDestAlpha, B::DestColor, B::InvDestColor, B::SrcAlphaSat, B::BlendFactor, B::InvBlendFactor};
+constexpr B kFactors[] = {B::Zero,        B::One,         B::SrcColor,      B::InvSrcColor, B::SrcAlpha,
+                          B::InvSrcAlpha, B::DestAlpha,   B::InvDestAlpha,  B::DestColor,   B::InvDestColor,
+                          B::SrcAlphaSat, B::BlendFactor, B::InvBlendFactor};
 constexpr BlendOp kOps[] = {BlendOp::Add, BlendOp::Subtract, BlendOp::RevSubtract, BlendOp::Min, BlendOp::Max};
 
 TEST_P(BlendTest, EachSourceFactor) {
   Start();
-  for (const B f : kFactors) DrawNext({.src = f, .dest = B::InvSrcAlpha, .srcAlpha = AlphaTwin(f), .destAlpha = B::DestAlpha});
+  for (const B f : kFactors)
+    DrawNext({.src = f, .dest = B::InvSrcAlpha, .srcAlpha = AlphaTwin(f), .destAlpha = B::DestAlpha});
   ExpectAll();
 }
 
 TEST_P(BlendTest, EachDestFactor) {
   Start();
   for (const B f : kFactors)
-    if (f != B::SrcAlphaSat) DrawNext({.src = B::DestColor, .dest = f, .srcAlpha = B::BlendFactor, .destAlpha = AlphaTwin(f)});
+    if (f != B::SrcAlphaSat)
+      DrawNext({.src = B::DestColor, .dest = f, .srcAlpha = B::BlendFactor, .destAlpha = AlphaTwin(f)});
   ExpectAll();
 }
 
@@ -111,7 +117,12 @@ TEST_P(BlendTest, EachOpAndAlphaOp) {
   Start();
   for (const BlendOp op : kOps)
     for (const BlendOp opAlpha : {BlendOp::Add, BlendOp::RevSubtract, BlendOp::Max})
-      DrawNext({.src = B::SrcAlpha, .dest = B::One, .op = op, .srcAlpha = B::One, .destAlpha = B::DestAlpha, .opAlpha = opAlpha});
+      DrawNext({.src = B::SrcAlpha,
+                .dest = B::One,
+                .op = op,
+                .srcAlpha = B::One,
+                .destAlpha = B::DestAlpha,
+                .opAlpha = opAlpha});
   ExpectAll();
 }
 
@@ -131,7 +142,8 @@ TEST_P(BlendTest, WriteMask) {
     desc.rt[0].writeMask = mask;
     context.OMSetBlendState(gpu.Blend(desc).get());
     const float left = float(mask) / 32 - 1;
-    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0.2f, 0.4f, 0.6f, 0.8f}, .rectangle = {left, 1, left + 1 / 32.f, -1}});
+    gpu.DrawRect(test_shaders::rect_PSTint,
+                 {.tint = {0.2f, 0.4f, 0.6f, 0.8f}, .rectangle = {left, 1, left + 1 / 32.f, -1}});
   }
   const Rgba8 drawn{51, 102, 153, 204};
   EXPECT_TRUE(Matches(gpu.Read(target), [&](uint32_t x, auto) {
@@ -182,7 +194,9 @@ TEST_P(BlendTest, ClearBetweenDraws) {
   gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {1, 0, 0, 1}});
   gpu.Clear(target, {0, 1, 0, 1});
   gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0, 0, 1, 1}, .rectangle = {-1, 1, 0, -1}});
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 32 ? Rgba8{0, 0, 255, 255} : Rgba8{0, 255, 0, 255}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
+    return x < 32 ? Rgba8{0, 0, 255, 255} : Rgba8{0, 255, 0, 255};
+  }));
 }
 
 // A clear that no draw follows is not lost, whether its target is bound or not.

@@ -17,7 +17,8 @@ std::vector<uint32_t> Ramp(uint32_t count, uint32_t first = 0) {
 class BufferTest : public RhiTest {
  protected:
   Ref<IBuffer> Make(Usage usage, Bind bind, const std::vector<uint32_t>& data) {
-    return gpu.Buffer({.byteWidth = uint32_t(data.size() * 4), .usage = usage, .bind = bind, .name = "test buffer"}, data.data());
+    return gpu.Buffer({.byteWidth = uint32_t(data.size() * 4), .usage = usage, .bind = bind, .name = "test buffer"},
+                      data.data());
   }
   std::vector<uint32_t> Words(const Ref<IBuffer>& b, uint32_t first, uint32_t count) {
     return gpu.ReadAs<uint32_t>(b.get(), first * 4, count);
@@ -34,7 +35,8 @@ TEST_P(BufferTest, InitReadback) {
 }
 
 TEST_P(BufferTest, DescIsKept) {
-  const Ref<IBuffer> b = gpu.Buffer({.byteWidth = 64, .usage = Usage::Dynamic, .bind = Bind::ShaderResource, .structureStride = 16});
+  const Ref<IBuffer> b =
+      gpu.Buffer({.byteWidth = 64, .usage = Usage::Dynamic, .bind = Bind::ShaderResource, .structureStride = 16});
   EXPECT_EQ(b->Desc().byteWidth, 64u);
   EXPECT_EQ(b->Desc().structureStride, 16u);
   EXPECT_EQ(b->GetUsage(), Usage::Dynamic);
@@ -52,7 +54,8 @@ TEST_P(BufferTest, UpdateSubresourceOfABox) {
 }
 
 TEST_P(BufferTest, CopyRegion) {
-  const Ref<IBuffer> a = Make(Usage::Default, Bind::VertexBuffer, Ramp(16)), b = Make(Usage::Default, Bind::IndexBuffer, Ramp(16, 100));
+  const Ref<IBuffer> a = Make(Usage::Default, Bind::VertexBuffer, Ramp(16)),
+                     b = Make(Usage::Default, Bind::IndexBuffer, Ramp(16, 100));
   const Box box{4, 0, 0, 16, 1, 1};
   context.CopySubresourceRegion(b.get(), 0, 20, 0, 0, a.get(), 0, &box);
   EXPECT_EQ(Words(b, 4, 5), (std::vector<uint32_t>{104, 1, 2, 3, 108}));
@@ -61,7 +64,8 @@ TEST_P(BufferTest, CopyRegion) {
 }
 
 TEST_P(BufferTest, StagingIsMappedForReadAndWrite) {
-  const Ref<IBuffer> upload = Make(Usage::Staging, Bind::None, Ramp(8)), b = Make(Usage::Default, Bind::VertexBuffer, Ramp(8)),
+  const Ref<IBuffer> upload = Make(Usage::Staging, Bind::None, Ramp(8)),
+                     b = Make(Usage::Default, Bind::VertexBuffer, Ramp(8)),
                      download = Make(Usage::Staging, Bind::None, Ramp(8));
   Mapped m;
   ASSERT_EQ(context.Map(upload.get(), 0, MapMode::Write, &m), Status::Ok);
@@ -81,7 +85,8 @@ TEST_P(BufferTest, MapDiscardTwoDrawsSameBuffer) {
     float position[3], color[4];
   };
   const Target target = gpu.MakeTarget({});
-  const Ref<IBuffer> b = gpu.Buffer({.byteWidth = 4 * sizeof(Vertex), .usage = Usage::Dynamic, .bind = Bind::VertexBuffer});
+  const Ref<IBuffer> b =
+      gpu.Buffer({.byteWidth = 4 * sizeof(Vertex), .usage = Usage::Dynamic, .bind = Bind::VertexBuffer});
   const InputElement layout[] = {{.semantic = "POSITION", .format = Format::RGB32_Float},
                                  {.semantic = "COLOR", .format = Format::RGBA32_Float, .offset = 12}};
   gpu.SetShaders(test_shaders::mesh_VSMesh, test_shaders::mesh_PSMesh);
@@ -93,8 +98,10 @@ TEST_P(BufferTest, MapDiscardTwoDrawsSameBuffer) {
   device.GetStats(true);
   for (int half = 0; half < 2; ++half) {
     const float left = float(half) - 1, right = float(half), green = float(half);
-    const Vertex v[4] = {{{left, 1, 0}, {1, green, 0, 1}}, {{right, 1, 0}, {1, green, 0, 1}},
-                         {{left, -1, 0}, {1, green, 0, 1}}, {{right, -1, 0}, {1, green, 0, 1}}};
+    const Vertex v[4] = {{{left, 1, 0}, {1, green, 0, 1}},
+                         {{right, 1, 0}, {1, green, 0, 1}},
+                         {{left, -1, 0}, {1, green, 0, 1}},
+                         {{right, -1, 0}, {1, green, 0, 1}}};
     Mapped m;
     ASSERT_EQ(context.Map(b.get(), 0, MapMode::WriteDiscard, &m), Status::Ok);
     std::memcpy(m.data, v, sizeof v);
@@ -102,12 +109,15 @@ TEST_P(BufferTest, MapDiscardTwoDrawsSameBuffer) {
     context.Draw(4, 0);
   }
   EXPECT_EQ(device.GetStats(false).passBreaks, 0u);
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t) { return Rgba8{255, uint8_t(x < 8 ? 0 : 255), 0, 255}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t) {
+    return Rgba8{255, uint8_t(x < 8 ? 0 : 255), 0, 255};
+  }));
 }
 
 TEST_P(BufferTest, NoOverwriteAppends) {
   const Target target = gpu.MakeTarget({.width = 8, .height = 1});
-  const Ref<IBuffer> b = gpu.Buffer({.byteWidth = 8 * 16, .usage = Usage::Dynamic, .bind = Bind::ShaderResource, .structureStride = 16});
+  const Ref<IBuffer> b =
+      gpu.Buffer({.byteWidth = 8 * 16, .usage = Usage::Dynamic, .bind = Bind::ShaderResource, .structureStride = 16});
   gpu.SetTarget(target);
   gpu.SetTexture(Stage::Pixel, 0, b.get());
   for (uint32_t i = 0; i < 8; ++i) {
@@ -124,7 +134,8 @@ TEST_P(BufferTest, NoOverwriteAppends) {
 
 TEST_P(BufferTest, ImmutableWriteRejected) {
   sink.Expect(MsgCode::ImmutableWrite, "every way of writing an immutable buffer");
-  const Ref<IBuffer> fixed = Make(Usage::Immutable, Bind::VertexBuffer, Ramp(8)), other = Make(Usage::Default, Bind::VertexBuffer, Ramp(8, 9));
+  const Ref<IBuffer> fixed = Make(Usage::Immutable, Bind::VertexBuffer, Ramp(8)),
+                     other = Make(Usage::Default, Bind::VertexBuffer, Ramp(8, 9));
   const std::vector<uint32_t> data = Ramp(8, 70);
   context.UpdateSubresource(fixed.get(), 0, nullptr, data.data(), 0, 0);
   context.CopyResource(fixed.get(), other.get());
@@ -135,7 +146,8 @@ TEST_P(BufferTest, ImmutableWriteRejected) {
 
 TEST_P(BufferTest, WrongMapsAreRejected) {
   sink.Expect(MsgCode::MapMode, "maps that the usage does not allow");
-  const Ref<IBuffer> normal = Make(Usage::Default, Bind::VertexBuffer, Ramp(8)), dynamic = Make(Usage::Dynamic, Bind::VertexBuffer, Ramp(8)),
+  const Ref<IBuffer> normal = Make(Usage::Default, Bind::VertexBuffer, Ramp(8)),
+                     dynamic = Make(Usage::Dynamic, Bind::VertexBuffer, Ramp(8)),
                      staging = Make(Usage::Staging, Bind::None, Ramp(8));
   Mapped m;
   EXPECT_EQ(context.Map(normal.get(), 0, MapMode::WriteDiscard, &m), Status::InvalidArg);
@@ -156,7 +168,8 @@ TEST_P(BufferTest, MappingTwiceIsRejected) {
 
 TEST_P(BufferTest, OutOfBoundsIsRejected) {
   sink.Expect(MsgCode::OutOfBounds, "copies, updates and reads beyond the end");
-  const Ref<IBuffer> a = Make(Usage::Default, Bind::VertexBuffer, Ramp(8)), b = Make(Usage::Default, Bind::VertexBuffer, Ramp(8));
+  const Ref<IBuffer> a = Make(Usage::Default, Bind::VertexBuffer, Ramp(8)),
+                     b = Make(Usage::Default, Bind::VertexBuffer, Ramp(8));
   const std::vector<uint32_t> data = Ramp(16, 70);
   const Box beyond{16, 0, 0, 36, 1, 1};
   context.UpdateSubresource(a.get(), 0, &beyond, data.data(), 0, 0);

@@ -114,7 +114,8 @@ TEST_P(ComputeTest, ManyDispatchesToOneBuffer) {
 
 TEST_P(ComputeTest, TextureWriteThenPixelShaderReads) {
   RHI_NEEDS_CAP(compute);
-  const Ref<ITexture> t = gpu.Texture({.width = 16, .height = 16, .format = Format::RGBA8_UNorm, .bind = Bind::ShaderResource | Bind::UnorderedAccess});
+  const Ref<ITexture> t = gpu.Texture(
+      {.width = 16, .height = 16, .format = Format::RGBA8_UNorm, .bind = Bind::ShaderResource | Bind::UnorderedAccess});
   const auto mark = [](uint32_t x, uint32_t y) { return Rgba8{uint8_t(x), uint8_t(y), 0, 255}; };
   SetCompute(test_shaders::compute_CSPicture);
   SetWrite(2, t.get());

@@ -27,7 +27,8 @@ TEST_P(ConstantsTest, Update10kWithoutAPassBreak) {
   device.GetStats(true);
   for (uint32_t i = 0; i < 10000; ++i) {
     const float x = float(i % 100) / 50 - 1, y = 1 - float(i / 100) / 50;
-    gpu.SetDraw({.tint = {float(i % 100) / 255, float(i / 100) / 255, 1, 1}, .rectangle = {x, y, x + 0.02f, y - 0.02f}});
+    gpu.SetDraw(
+        {.tint = {float(i % 100) / 255, float(i / 100) / 255, 1, 1}, .rectangle = {x, y, x + 0.02f, y - 0.02f}});
     context.Draw(4, 0);
   }
   const Stats stats = device.GetStats(false);
@@ -35,7 +36,9 @@ TEST_P(ConstantsTest, Update10kWithoutAPassBreak) {
   EXPECT_EQ(stats.passBreaks, 0u);
   EXPECT_LE(stats.passes, 1u);
   EXPECT_GE(stats.ringBytes, 10000u * sizeof(DrawConstants));
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) { return Rgba8{uint8_t(x), uint8_t(y), 255, 255}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) {
+    return Rgba8{uint8_t(x), uint8_t(y), 255, 255};
+  }));
 }
 
 // More than a page of the ring in each of six frames, so that every page comes round again while frames are in flight.
@@ -55,9 +58,11 @@ TEST_P(ConstantsTest, RingWrapsOverFrames) {
     context.EndFrame();
   }
   for (uint8_t frame = 0; frame < 6; ++frame)
-    EXPECT_TRUE(Matches(gpu.Read(targets[frame]), [frame](uint32_t x, uint32_t y) {
-      return Rgba8{uint8_t(x), uint8_t(y), uint8_t(frame + 1), 255};
-    })) << "frame " << +frame;
+    EXPECT_TRUE(Matches(gpu.Read(targets[frame]),
+                        [frame](uint32_t x, uint32_t y) {
+                          return Rgba8{uint8_t(x), uint8_t(y), uint8_t(frame + 1), 255};
+                        }))
+        << "frame " << +frame;
 }
 
 TEST_P(ConstantsTest, FourSlotsAreSharedByTheStages) {
@@ -133,7 +138,8 @@ TEST_P(ConstantsTest, SixteenKilobytesAreTheLimit) {
   Make(kMaxConstantBufferBytes);
   sink.Expect(MsgCode::InvalidDesc, "more than a constant buffer may hold");
   Ref<IBuffer> none;
-  const BufferDesc desc{.byteWidth = kMaxConstantBufferBytes + 16, .usage = Usage::Dynamic, .bind = Bind::ConstantBuffer};
+  const BufferDesc desc{
+      .byteWidth = kMaxConstantBufferBytes + 16, .usage = Usage::Dynamic, .bind = Bind::ConstantBuffer};
   EXPECT_EQ(device.CreateBuffer(desc, nullptr, &none), Status::InvalidArg);
 }
 

@@ -27,15 +27,17 @@ bool Passes(Comparison f, double a, double b) {
   }
   return false;
 }
-constexpr Comparison kFunctions[] = {Comparison::Never,   Comparison::Less,     Comparison::Equal,        Comparison::LessEqual,
-                                     Comparison::Greater, Comparison::NotEqual, Comparison::GreaterEqual, Comparison::Always};
+constexpr Comparison kFunctions[] = {Comparison::Never,        Comparison::Less,    Comparison::Equal,
+                                     Comparison::LessEqual,    Comparison::Greater, Comparison::NotEqual,
+                                     Comparison::GreaterEqual, Comparison::Always};
 
 class DepthTest : public RhiTest {
  protected:
   // Draws column `x` of a target of 32 pixels.
   void DrawColumn(uint32_t x, float depth, const Rgba32F& tint = {1, 1, 1, 1}) {
     const float left = float(x) / 16 - 1;
-    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = tint, .rectangle = {left, 1, left + 1 / 16.f, -1}, .extra = {depth, 0, 0, 0}});
+    gpu.DrawRect(test_shaders::rect_PSTint,
+                 {.tint = tint, .rectangle = {left, 1, left + 1 / 16.f, -1}, .extra = {depth, 0, 0, 0}});
   }
 };
 
@@ -50,7 +52,8 @@ TEST_P(DepthTest, EachFunction) {
   }
   const auto passes = [&](uint32_t x) { return x < 24 && Passes(kFunctions[x / 3], depths[x % 3], 0.5); };
   EXPECT_TRUE(Matches(gpu.Read(target), [&](uint32_t x, auto) { return passes(x) ? kWhite : kBlack; }));
-  EXPECT_TRUE(Matches(gpu.Read(target.depth.get()), [&](uint32_t x, auto) { return std::array<float, 1>{passes(x) ? depths[x % 3] : 0.5f}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target.depth.get()),
+                      [&](uint32_t x, auto) { return std::array<float, 1>{passes(x) ? depths[x % 3] : 0.5f}; }));
 }
 
 TEST_P(DepthTest, DefaultStateIsLessAndWrites) {
@@ -162,10 +165,13 @@ TEST_P(DepthTest, StencilFunctionsComparReferenceWithValue) {
   gpu.Clear(target, {0, 0, 0, 0}, 1, 5);
   gpu.SetTarget(target);
   for (uint32_t i = 0; i < 24; ++i) {
-    context.OMSetDepthStencilState(gpu.DepthStencil({.stencilEnable = true, .front = {.func = kFunctions[i / 3]}}).get(), 4 + i % 3);
+    context.OMSetDepthStencilState(
+        gpu.DepthStencil({.stencilEnable = true, .front = {.func = kFunctions[i / 3]}}).get(), 4 + i % 3);
     DrawColumn(i, 0.5f);
   }
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 24 && Passes(kFunctions[x / 3], 4 + x % 3, 5) ? kWhite : kBlack; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
+    return x < 24 && Passes(kFunctions[x / 3], 4 + x % 3, 5) ? kWhite : kBlack;
+  }));
 }
 
 TEST_P(DepthTest, StencilMasksAndFaces) {
@@ -184,14 +190,21 @@ TEST_P(DepthTest, StencilMasksAndFaces) {
   gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {1, 1, 0, -1}});
   context.ClearRenderTargetView(target.rtv.get(), Rgba32F{0, 0, 0, 0}.data());
   const auto show = [&](uint8_t readMask, uint32_t reference, const Rgba32F& tint) {
-    context.OMSetDepthStencilState(gpu.DepthStencil({.depthEnable = false, .stencilEnable = true, .readMask = readMask, .front = {.func = Comparison::Equal}}).get(), reference);
+    context.OMSetDepthStencilState(gpu.DepthStencil({.depthEnable = false,
+                                                     .stencilEnable = true,
+                                                     .readMask = readMask,
+                                                     .front = {.func = Comparison::Equal}})
+                                       .get(),
+                                   reference);
     gpu.DrawRect(test_shaders::rect_PSTint, {.tint = tint});
   };
   show(0xFF, 0xCC, {1, 0, 0, 1});
   show(0xF3, 0xC0, {0, 0, 0, 0});  // the masked bits are ignored on both sides: all
   show(0xFF, 0xCC, {1, 0, 0, 1});
   show(0xFF, 0xC0, {0, 1, 0, 1});
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 16 ? Rgba8{255, 0, 0, 255} : Rgba8{0, 255, 0, 255}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
+    return x < 16 ? Rgba8{255, 0, 0, 255} : Rgba8{0, 255, 0, 255};
+  }));
 }
 
 RHI_ON_EVERY_BACKEND(DepthTest);

@@ -49,7 +49,8 @@ TEST_P(DeviceTest, RequiredCapsOfTheTestDrivers) {
 }
 
 TEST_P(DeviceTest, FormatSupportOfRequiredFormats) {
-  const FormatSupport color = FormatSupport::Texture2D | FormatSupport::SampleLinear | FormatSupport::RenderTarget | FormatSupport::Blendable;
+  const FormatSupport color =
+      FormatSupport::Texture2D | FormatSupport::SampleLinear | FormatSupport::RenderTarget | FormatSupport::Blendable;
   for (const Format f : {Format::RGBA8_UNorm, Format::RGBA8_UNorm_sRGB, Format::RGBA16_Float})
     EXPECT_EQ(uint32_t(device.CheckFormatSupport(f)) & uint32_t(color), uint32_t(color)) << ToString(f);
   EXPECT_TRUE(device.CheckFormatSupport(Format::D32_Float) & FormatSupport::DepthStencil);
@@ -72,8 +73,12 @@ TEST_P(DeviceTest, TwoDevicesAreIndependent) {
   gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0, 0, 1, 1}, .rectangle = {-1, 1, 0, -1}});
   second.DrawRect(test_shaders::rect_PSTint, {.tint = {1, 1, 1, 1}, .rectangle = {0, 1, 1, -1}});
   const Image first = gpu.Read(a);
-  EXPECT_TRUE(Matches(first, [](uint32_t x, uint32_t) { return x < 8 ? Rgba8{0, 0, 255, 255} : Rgba8{255, 0, 0, 255}; }));
-  EXPECT_TRUE(Matches(second.Read(b), [](uint32_t x, uint32_t) { return x < 8 ? Rgba8{0, 255, 0, 255} : Rgba8{255, 255, 255, 255}; }));
+  EXPECT_TRUE(Matches(first, [](uint32_t x, uint32_t) {
+    return x < 8 ? Rgba8{0, 0, 255, 255} : Rgba8{255, 0, 0, 255};
+  }));
+  EXPECT_TRUE(Matches(second.Read(b), [](uint32_t x, uint32_t) {
+    return x < 8 ? Rgba8{0, 255, 0, 255} : Rgba8{255, 255, 255, 255};
+  }));
   second.Finish();
   second.sink.Verify();
 }
@@ -111,7 +116,8 @@ TEST_P(DeviceTest, AnyOrderOfDestruction) {
     Ref<ISamplerState> sampler;
     Ref<IShader> shader;
     Ref<IQuery> query;
-    const TextureDesc desc{.width = 4, .height = 4, .format = Format::RGBA8_UNorm, .bind = Bind::RenderTarget | Bind::ShaderResource};
+    const TextureDesc desc{
+        .width = 4, .height = 4, .format = Format::RGBA8_UNorm, .bind = Bind::RenderTarget | Bind::ShaderResource};
     ASSERT_EQ(d->CreateTexture(desc, nullptr, &texture), Status::Ok);
     ASSERT_EQ(d->CreateShaderResourceView(texture.get(), nullptr, &view), Status::Ok);
     ASSERT_EQ(d->CreateRenderTargetView(texture.get(), nullptr, &target), Status::Ok);
@@ -136,8 +142,10 @@ TEST_P(DeviceTest, ReleasedResourcesLiveUntilTheGpuIsDone) {
   const Target target = gpu.MakeTarget({});
   gpu.SetTarget(target);
   for (uint8_t i = 1; i <= 16; ++i) {
-    const Ref<ITexture> picture = gpu.TextureOf<Rgba8>({.width = 1, .height = 1, .format = Format::RGBA8_UNorm},
-                                                       [i](auto, auto, auto, auto) { return Rgba8{i, 0, 0, 255}; });
+    const Ref<ITexture> picture =
+        gpu.TextureOf<Rgba8>({.width = 1, .height = 1, .format = Format::RGBA8_UNorm}, [i](auto, auto, auto, auto) {
+          return Rgba8{i, 0, 0, 255};
+        });
     gpu.SetTexture(Stage::Pixel, 0, picture.get());
     gpu.SetSampler(Stage::Pixel, 0, {});
     const float left = float(i - 1) / 8 - 1;
@@ -147,14 +155,34 @@ TEST_P(DeviceTest, ReleasedResourcesLiveUntilTheGpuIsDone) {
 }
 
 TEST(Messages, CodesAreStable) {
-  const std::pair<MsgCode, int> codes[] = {{MsgCode::None, 0}, {MsgCode::DeviceUnavailable, 100}, {MsgCode::CapMissing, 101},
-      {MsgCode::InvalidDesc, 102}, {MsgCode::OutOfMemory, 103}, {MsgCode::ShaderRejected, 104}, {MsgCode::LayoutMismatch, 105},
-      {MsgCode::ImmutableWrite, 106}, {MsgCode::TargetStillBoundAsInput, 200}, {MsgCode::InputStillBoundAsTarget, 201},
-      {MsgCode::SlotOutOfRange, 202}, {MsgCode::WrongBindFlag, 203}, {MsgCode::WrongStage, 204}, {MsgCode::NoVertexShader, 300},
-      {MsgCode::NoTarget, 301}, {MsgCode::TargetsDiffer, 302}, {MsgCode::NothingBound, 303}, {MsgCode::TopologyMismatch, 304},
-      {MsgCode::IndexBufferMissing, 305}, {MsgCode::MapMode, 400}, {MsgCode::MapTwice, 401}, {MsgCode::OutOfBounds, 402},
-      {MsgCode::SubresourceOutOfRange, 403}, {MsgCode::FormatMismatch, 404}, {MsgCode::QueryOrder, 500}, {MsgCode::SurfaceLost, 600},
-      {MsgCode::ApiValidation, 900}, {MsgCode::DeviceLost, 901}};
+  const std::pair<MsgCode, int> codes[] = {{MsgCode::None, 0},
+                                           {MsgCode::DeviceUnavailable, 100},
+                                           {MsgCode::CapMissing, 101},
+                                           {MsgCode::InvalidDesc, 102},
+                                           {MsgCode::OutOfMemory, 103},
+                                           {MsgCode::ShaderRejected, 104},
+                                           {MsgCode::LayoutMismatch, 105},
+                                           {MsgCode::ImmutableWrite, 106},
+                                           {MsgCode::TargetStillBoundAsInput, 200},
+                                           {MsgCode::InputStillBoundAsTarget, 201},
+                                           {MsgCode::SlotOutOfRange, 202},
+                                           {MsgCode::WrongBindFlag, 203},
+                                           {MsgCode::WrongStage, 204},
+                                           {MsgCode::NoVertexShader, 300},
+                                           {MsgCode::NoTarget, 301},
+                                           {MsgCode::TargetsDiffer, 302},
+                                           {MsgCode::NothingBound, 303},
+                                           {MsgCode::TopologyMismatch, 304},
+                                           {MsgCode::IndexBufferMissing, 305},
+                                           {MsgCode::MapMode, 400},
+                                           {MsgCode::MapTwice, 401},
+                                           {MsgCode::OutOfBounds, 402},
+                                           {MsgCode::SubresourceOutOfRange, 403},
+                                           {MsgCode::FormatMismatch, 404},
+                                           {MsgCode::QueryOrder, 500},
+                                           {MsgCode::SurfaceLost, 600},
+                                           {MsgCode::ApiValidation, 900},
+                                           {MsgCode::DeviceLost, 901}};
   std::vector<std::string> names;
   for (const auto& [code, number] : codes) {
     EXPECT_EQ(int(code), number);

@@ -22,14 +22,15 @@ class ErrorTest : public RhiTest {
 
 TEST_P(ErrorTest, BadBuffers) {
   Wanted(MsgCode::InvalidDesc);
-  const BufferDesc bad[] = {{.byteWidth = 0, .bind = Bind::VertexBuffer},
-                            {.byteWidth = 64, .usage = Usage::Immutable, .bind = Bind::VertexBuffer},
-                            {.byteWidth = 64, .usage = Usage::Staging, .bind = Bind::VertexBuffer},
-                            {.byteWidth = 64, .bind = Bind::ConstantBuffer | Bind::VertexBuffer},
-                            {.byteWidth = 64, .bind = Bind::ShaderResource},
-                            {.byteWidth = 64, .bind = Bind::ShaderResource, .structureStride = 20},
-                            {.byteWidth = 64, .bind = Bind::ShaderResource, .structureStride = 6},
-                            {.byteWidth = 64, .usage = Usage::Dynamic, .bind = Bind::UnorderedAccess, .structureStride = 16}};
+  const BufferDesc bad[] = {
+      {.byteWidth = 0, .bind = Bind::VertexBuffer},
+      {.byteWidth = 64, .usage = Usage::Immutable, .bind = Bind::VertexBuffer},
+      {.byteWidth = 64, .usage = Usage::Staging, .bind = Bind::VertexBuffer},
+      {.byteWidth = 64, .bind = Bind::ConstantBuffer | Bind::VertexBuffer},
+      {.byteWidth = 64, .bind = Bind::ShaderResource},
+      {.byteWidth = 64, .bind = Bind::ShaderResource, .structureStride = 20},
+      {.byteWidth = 64, .bind = Bind::ShaderResource, .structureStride = 6},
+      {.byteWidth = 64, .usage = Usage::Dynamic, .bind = Bind::UnorderedAccess, .structureStride = 16}};
   int count = 0;
   for (const BufferDesc& desc : bad) {
     Ref<IBuffer> none;
@@ -66,9 +67,16 @@ TEST_P(ErrorTest, BadTextures) {
 TEST_P(ErrorTest, TooLargeIsUnsupported) {
   Wanted(MsgCode::CapMissing);
   Ref<ITexture> none;
-  EXPECT_EQ(device.CreateTexture({.width = 1u << 20, .height = 1, .format = Format::RGBA8_UNorm}, nullptr, &none), Status::Unsupported);
-  EXPECT_EQ(device.CreateTexture({.dim = TextureDim::Tex2DMS, .width = 4, .height = 4, .sampleCount = 64, .format = Format::RGBA8_UNorm,
-                                  .bind = Bind::RenderTarget}, nullptr, &none), Status::Unsupported);
+  EXPECT_EQ(device.CreateTexture({.width = 1u << 20, .height = 1, .format = Format::RGBA8_UNorm}, nullptr, &none),
+            Status::Unsupported);
+  EXPECT_EQ(device.CreateTexture({.dim = TextureDim::Tex2DMS,
+                                  .width = 4,
+                                  .height = 4,
+                                  .sampleCount = 64,
+                                  .format = Format::RGBA8_UNorm,
+                                  .bind = Bind::RenderTarget},
+                                 nullptr, &none),
+            Status::Unsupported);
   EXPECT_FALSE(none);
 }
 
@@ -130,7 +138,8 @@ TEST_P(ErrorTest, ReadBackIntoTooLittle) {
 
 TEST_P(ErrorTest, CopyOfOtherFormats) {
   Wanted(MsgCode::FormatMismatch);
-  const Ref<ITexture> a = gpu.Texture({.width = 4, .height = 4, .format = Format::RGBA8_UNorm}), b = gpu.Texture({.width = 4, .height = 4, .format = Format::RGBA16_Float});
+  const Ref<ITexture> a = gpu.Texture({.width = 4, .height = 4, .format = Format::RGBA8_UNorm}),
+                      b = gpu.Texture({.width = 4, .height = 4, .format = Format::RGBA16_Float});
   context.CopyResource(a.get(), b.get());
 }
 
@@ -145,6 +154,7 @@ TEST_P(ErrorTest, DrawWithoutVertexShader) {
 
 TEST_P(ErrorTest, DrawWithoutTarget) {
   Wanted(MsgCode::NoTarget);
+  gpu.SetViewport(0, 0, 16, 16);
   gpu.DrawRect(test_shaders::rect_PSTint);
 }
 
@@ -179,6 +189,7 @@ TEST_P(ErrorTest, DrawWithTargetsOfOtherSizes) {
 }
 
 TEST_P(ErrorTest, DrawWithoutViewportDrawsNothing) {
+  sink.Allow(MsgCode::NothingBound, "no viewport");
   const Target target = BlueTarget();
   IRenderTargetView* rtv = target.rtv.get();
   context.OMSetRenderTargets(1, &rtv, nullptr);
@@ -222,6 +233,7 @@ TEST_P(ErrorTest, DrawsAfterAnErrorAreFine) {
 TEST_P(ErrorTest, NullsAreNoCrash) {
   sink.Allow(MsgCode::InvalidDesc, "null arguments");
   sink.Allow(MsgCode::NothingBound, "null arguments");
+  sink.Allow(MsgCode::MapMode, "null arguments");
   Mapped m;
   EXPECT_EQ(context.Map(nullptr, 0, MapMode::Read, &m), Status::InvalidArg);
   context.Unmap(nullptr, 0);

@@ -19,7 +19,8 @@ class GeometryTest : public RhiTest {
 
 TEST_P(GeometryTest, Passthrough) {
   RHI_NEEDS_CAP(geometryShader);
-  const Target with = gpu.MakeTarget({.width = 31, .height = 19}), without = gpu.MakeTarget({.width = 31, .height = 19});
+  const Target with = gpu.MakeTarget({.width = 31, .height = 19}),
+               without = gpu.MakeTarget({.width = 31, .height = 19});
   gpu.SetTarget(without);
   gpu.DrawRect(test_shaders::rect_PSPattern, {.tint = {0.3f, 0.7f, 0, 0}});
   gpu.SetTarget(with);
@@ -30,8 +31,15 @@ TEST_P(GeometryTest, Passthrough) {
 TEST_P(GeometryTest, LayerOutput) {
   RHI_NEEDS_CAP(geometryShader);
   RHI_NEEDS_CAP(layeredRendering);
-  const Ref<ITexture> t = gpu.TextureOf<Rgba8>({.dim = TextureDim::Tex2DArray, .width = 4, .height = 4, .depthOrArray = 6, .format = Format::RGBA8_UNorm,
-                                                .bind = Bind::RenderTarget}, [](auto, auto, auto, auto) { return Rgba8{9, 9, 9, 9}; });
+  const Ref<ITexture> t = gpu.TextureOf<Rgba8>({.dim = TextureDim::Tex2DArray,
+                                                .width = 4,
+                                                .height = 4,
+                                                .depthOrArray = 6,
+                                                .format = Format::RGBA8_UNorm,
+                                                .bind = Bind::RenderTarget},
+                                               [](auto, auto, auto, auto) {
+                                                 return Rgba8{9, 9, 9, 9};
+                                               });
   const ViewDesc four{.firstSlice = 1, .sliceCount = 4};
   const Ref<IRenderTargetView> rtv = gpu.TargetView(t.get(), &four);
   IRenderTargetView* raw = rtv.get();

@@ -30,7 +30,8 @@ DeviceDesc TestDeviceDesc(IMessageSink* sink) {
 Gpu::Gpu(Backend b) : backend(b) {
   Require(CreateDevice(b, TestDeviceDesc(&sink), &device), "CreateDevice");
   context = device->ImmediateContext();
-  draw_ = Buffer({.byteWidth = sizeof(DrawConstants), .usage = Usage::Dynamic, .bind = Bind::ConstantBuffer, .name = "draw"});
+  draw_ = Buffer(
+      {.byteWidth = sizeof(DrawConstants), .usage = Usage::Dynamic, .bind = Bind::ConstantBuffer, .name = "draw"});
 }
 
 Gpu::~Gpu() { Close(); }
@@ -39,13 +40,15 @@ void Gpu::Close() {
   if (!device) return;
   context->ClearState();
   draw_ = nullptr;
+  shaders_.clear();
   context = nullptr;
   device = nullptr;
 }
 
 void Gpu::Require(Status status, const char* what) {
   if (status == Status::Ok) return;
-  throw std::runtime_error(std::string(what) + " on " + BackendName(backend) + " gave " + ToString(status) + "\n" + sink.Dump());
+  throw std::runtime_error(std::string(what) + " on " + BackendName(backend) + " gave " + ToString(status) + "\n" +
+                           sink.Dump());
 }
 
 void Gpu::Finish() {
@@ -91,8 +94,8 @@ Ref<IUnorderedAccessView> Gpu::WriteView(IResource* resource, const ViewDesc* de
 }
 
 Ref<IShader> Gpu::Shader(const ShaderBlob& blob) {
-  Ref<IShader> s;
-  Require(device->CreateShader(blob, &s), blob.name);
+  Ref<IShader>& s = shaders_[&blob];
+  if (!s) Require(device->CreateShader(blob, &s), blob.name);
   return s;
 }
 
@@ -135,12 +138,22 @@ Ref<IQuery> Gpu::Query(QueryType type) {
 Target Gpu::MakeTarget(const TargetDesc& d) {
   Target t{d.width, d.height, {}, {}, {}, {}};
   const TextureDim dim = d.samples > 1 ? TextureDim::Tex2DMS : TextureDim::Tex2D;
-  t.color = Texture({.dim = dim, .width = d.width, .height = d.height, .sampleCount = d.samples, .format = d.format,
-                     .bind = Bind::RenderTarget | Bind::ShaderResource, .name = "target"});
+  t.color = Texture({.dim = dim,
+                     .width = d.width,
+                     .height = d.height,
+                     .sampleCount = d.samples,
+                     .format = d.format,
+                     .bind = Bind::RenderTarget | Bind::ShaderResource,
+                     .name = "target"});
   t.rtv = TargetView(t.color.get());
   if (d.depthFormat == Format::Unknown) return t;
-  t.depth = Texture({.dim = dim, .width = d.width, .height = d.height, .sampleCount = d.samples, .format = d.depthFormat,
-                     .bind = Bind::DepthStencil, .name = "depth target"});
+  t.depth = Texture({.dim = dim,
+                     .width = d.width,
+                     .height = d.height,
+                     .sampleCount = d.samples,
+                     .format = d.depthFormat,
+                     .bind = Bind::DepthStencil,
+                     .name = "depth target"});
   t.dsv = DepthView(t.depth.get());
   return t;
 }
@@ -203,7 +216,8 @@ void Gpu::Clear(const Target& t, const Rgba32F& color, float depth, uint8_t sten
 Image Gpu::Read(const Target& t) {
   if (t.color->Desc().sampleCount == 1) return Read(t.color.get());
   const Format format = t.color->Desc().format;
-  const Ref<ITexture> one = Texture({.width = t.width, .height = t.height, .format = format, .bind = Bind::RenderTarget});
+  const Ref<ITexture> one =
+      Texture({.width = t.width, .height = t.height, .format = format, .bind = Bind::RenderTarget});
   context->ResolveSubresource(one.get(), 0, t.color.get(), 0, format);
   return Read(one.get());
 }
@@ -211,9 +225,11 @@ Image Gpu::Read(const Target& t) {
 Image Gpu::Read(ITexture* texture, uint32_t mip, uint32_t slice) {
   const TextureDesc& d = texture->Desc();
   const uint32_t depth = d.dim == TextureDim::Tex3D ? std::max(1u, d.depthOrArray >> mip) : 1;
-  Image image{std::max(1u, d.width >> mip), std::max(1u, d.height >> mip) * depth, GetFormatInfo(d.format).blockBytes, {}};
+  Image image{
+      std::max(1u, d.width >> mip), std::max(1u, d.height >> mip) * depth, GetFormatInfo(d.format).blockBytes, {}};
   image.bytes.resize(size_t(image.width) * image.height * image.texelBytes);
-  Require(device->ReadBack(texture, Subresource(mip, slice, d.mipLevels), image.bytes.data(), image.bytes.size()), "ReadBack");
+  Require(device->ReadBack(texture, Subresource(mip, slice, d.mipLevels), image.bytes.data(), image.bytes.size()),
+          "ReadBack");
   return image;
 }
 

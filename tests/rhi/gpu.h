@@ -1,5 +1,6 @@
-// One device with a sink that fails tests, and short ways to make resources and pictures with it. Everything here throws
-// std::runtime_error, with the messages, where the RHI gives an error; gtest turns that into a failure of the test.
+// One device with a sink that fails tests, and short ways to make resources and pictures with it. Everything here
+// throws std::runtime_error, with the messages, where the RHI gives an error; gtest turns that into a failure of the
+// test.
 #pragma once
 
 #include <functional>
@@ -61,7 +62,8 @@ class Gpu {
   rhi::Ref<rhi::IBuffer> Buffer(const rhi::BufferDesc&, const void* init = nullptr);
   template <class T>
   rhi::Ref<rhi::IBuffer> BufferOf(rhi::Bind bind, const std::vector<T>& data, uint32_t stride = 0) {
-    return Buffer({.byteWidth = uint32_t(data.size() * sizeof(T)), .bind = bind, .structureStride = stride}, data.data());
+    return Buffer({.byteWidth = uint32_t(data.size() * sizeof(T)), .bind = bind, .structureStride = stride},
+                  data.data());
   }
   rhi::Ref<rhi::ITexture> Texture(const rhi::TextureDesc&, const rhi::SubresourceData* init = nullptr);
   // A texture whose mip `m` of slice `s` is filled by texel(x, y, m, s).
@@ -72,7 +74,7 @@ class Gpu {
   rhi::Ref<rhi::IRenderTargetView> TargetView(rhi::ITexture*, const rhi::ViewDesc* = nullptr);
   rhi::Ref<rhi::IDepthStencilView> DepthView(rhi::ITexture*, const rhi::ViewDesc* = nullptr);
   rhi::Ref<rhi::IUnorderedAccessView> WriteView(rhi::IResource*, const rhi::ViewDesc* = nullptr);
-  rhi::Ref<rhi::IShader> Shader(const rhi::ShaderBlob&);
+  rhi::Ref<rhi::IShader> Shader(const rhi::ShaderBlob&);  // made once for each
   rhi::Ref<rhi::IInputLayout> Layout(std::span<const rhi::InputElement>, rhi::IShader* vs);
   rhi::Ref<rhi::IBlendState> Blend(const rhi::BlendDesc&);
   rhi::Ref<rhi::IDepthStencilState> DepthStencil(const rhi::DepthStencilDesc&);
@@ -115,6 +117,7 @@ class Gpu {
   void Require(rhi::Status, const char* what);
   void WaitFor(rhi::IQuery*, void* data, uint32_t size);
   rhi::Ref<rhi::IBuffer> draw_;  // DrawConstants
+  std::map<const rhi::ShaderBlob*, rhi::Ref<rhi::IShader>> shaders_;
 };
 
 // The shared device of a backend, made at its first use and kept to the end.

@@ -6,7 +6,8 @@ namespace rhi_test {
 
 Difference Compare(const Image& a, const Image& b) {
   Difference d;
-  d.sameShape = a.width == b.width && a.height == b.height && a.texelBytes == b.texelBytes && a.bytes.size() == b.bytes.size();
+  d.sameShape =
+      a.width == b.width && a.height == b.height && a.texelBytes == b.texelBytes && a.bytes.size() == b.bytes.size();
   if (!d.sameShape) return d;
   for (uint32_t y = 0; y < a.height; ++y)
     for (uint32_t x = 0; x < a.width; ++x) {
@@ -20,8 +21,9 @@ Difference Compare(const Image& a, const Image& b) {
 testing::AssertionResult SameImage(const Image& a, const Image& b) {
   const Difference d = Compare(a, b);
   if (!d.sameShape)
-    return testing::AssertionFailure() << "pictures of different shape: " << a.width << " x " << a.height << " x " << a.texelBytes
-                                       << " and " << b.width << " x " << b.height << " x " << b.texelBytes;
+    return testing::AssertionFailure() << "pictures of different shape: " << a.width << " x " << a.height << " x "
+                                       << a.texelBytes << " and " << b.width << " x " << b.height << " x "
+                                       << b.texelBytes;
   if (d.pixels == 0) return testing::AssertionSuccess();
   const size_t at = (size_t(d.y) * a.width + d.x) * a.texelBytes;
   auto result = testing::AssertionFailure();

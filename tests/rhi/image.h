@@ -30,7 +30,7 @@ struct Image {
 };
 
 struct Difference {
-  uint64_t pixels = 0;  // that differ in any byte
+  uint64_t pixels = 0;    // that differ in any byte
   uint32_t x = 0, y = 0;  // the first of them
   bool sameShape = true;
 };
@@ -61,7 +61,8 @@ template <class Oracle>
 testing::AssertionResult Matches(const Image& image, Oracle oracle, double tolerance = 0) {
   using Texel = decltype(oracle(0u, 0u));
   if (sizeof(Texel) != image.texelBytes)
-    return testing::AssertionFailure() << "texels have " << image.texelBytes << " bytes, the oracle's " << sizeof(Texel);
+    return testing::AssertionFailure() << "texels have " << image.texelBytes << " bytes, the oracle's "
+                                       << sizeof(Texel);
   uint64_t wrong = 0;
   std::ostringstream list;
   for (uint32_t y = 0; y < image.height; ++y)
@@ -72,7 +73,8 @@ testing::AssertionResult Matches(const Image& image, Oracle oracle, double toler
         list << "\n  pixel " << x << ", " << y << " is " << Text(actual) << ", expected " << Text(expected);
     }
   if (wrong == 0) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << wrong << " of " << image.width * image.height << " pixels are wrong:" << list.str();
+  return testing::AssertionFailure() << wrong << " of " << image.width * image.height
+                                     << " pixels are wrong:" << list.str();
 }
 
 // 0..1 to 0..255, rounded as Direct3D does. NaN is 0.

@@ -10,8 +10,9 @@ struct IdVertex {
   float position[2];
   uint8_t data[4];
 };
-constexpr InputElement kIdLayout[] = {{.semantic = "POSITION", .format = Format::RG32_Float},
-                                      {.semantic = "COLOR", .semanticIndex = 1, .format = Format::RGBA8_UNorm, .offset = 8}};
+constexpr InputElement kIdLayout[] = {
+    {.semantic = "POSITION", .format = Format::RG32_Float},
+    {.semantic = "COLOR", .semanticIndex = 1, .format = Format::RGBA8_UNorm, .offset = 8}};
 
 class InputTest : public RhiTest {
  protected:
@@ -117,22 +118,31 @@ TEST_P(InputTest, VertexFormats) {
     uint16_t halves[2];
   };
   const uint16_t half0 = 0x3400, half1 = 0x3800;  // 0.25, 0.5
-  const auto at = [&](float x, float y) { return Vertex{{x, y, 0.5f}, {51, 0, 0, 255}, {1, 102, 3, 4}, {half0, half1}}; };
+  const auto at = [&](float x, float y) {
+    return Vertex{{x, y, 0.5f}, {51, 0, 0, 255}, {1, 102, 3, 4}, {half0, half1}};
+  };
   const Ref<IBuffer> b = gpu.BufferOf(Bind::VertexBuffer, std::vector<Vertex>{at(-1, 1), at(3, 1), at(-1, -3)});
-  const InputElement layout[] = {{.semantic = "POSITION", .format = Format::RGB32_Float},
-                                 {.semantic = "COLOR", .format = Format::RGBA8_UNorm, .offset = 12},
-                                 {.semantic = "BLENDINDICES", .format = Format::RGBA8_UInt, .offset = 16},
-                                 {.semantic = "TEXCOORD", .semanticIndex = 3, .format = Format::RG16_Float, .offset = 20}};
+  const InputElement layout[] = {
+      {.semantic = "POSITION", .format = Format::RGB32_Float},
+      {.semantic = "COLOR", .format = Format::RGBA8_UNorm, .offset = 12},
+      {.semantic = "BLENDINDICES", .format = Format::RGBA8_UInt, .offset = 16},
+      {.semantic = "TEXCOORD", .semanticIndex = 3, .format = Format::RG16_Float, .offset = 20}};
   const Target one = gpu.MakeTarget({});
   gpu.SetTarget(one);
   gpu.SetShaders(test_shaders::ids_VSFormats, test_shaders::ids_PSIds);
   context.IASetInputLayout(gpu.Layout(layout, gpu.Shader(test_shaders::ids_VSFormats).get()).get());
   gpu.SetVertices(b.get(), sizeof(Vertex));
   context.Draw(3, 0);
-  EXPECT_TRUE(Matches(gpu.Read(one), [](auto, auto) { return Rgba8{51, 102, 128, 255}; }, 1));
+  EXPECT_TRUE(Matches(
+      gpu.Read(one),
+      [](auto, auto) {
+        return Rgba8{51, 102, 128, 255};
+      },
+      1));
 }
 
-// Attributes for each instance, from slots of their own, stepping every instance and every second one; the start counts.
+// Attributes for each instance, from slots of their own, stepping every instance and every second one; the start
+// counts.
 TEST_P(InputTest, InstanceStepRate) {
   RHI_NEEDS_CAP(instanceStepRate);
   const Target row = gpu.MakeTarget({.width = 16, .height = 1});
@@ -143,10 +153,18 @@ TEST_P(InputTest, InstanceStepRate) {
     offsets.push_back({float(i) / 8, 0});
     colors.push_back({uint8_t(i + 1), 0, 0, 255});
   }
-  const InputElement layout[] = {
-      {.semantic = "POSITION", .format = Format::RG32_Float},
-      {.semantic = "COLOR", .format = Format::RGBA8_UNorm, .slot = 1, .inputClass = InputClass::PerInstance, .stepRate = 2},
-      {.semantic = "TEXCOORD", .semanticIndex = 2, .format = Format::RG32_Float, .slot = 5, .inputClass = InputClass::PerInstance, .stepRate = 1}};
+  const InputElement layout[] = {{.semantic = "POSITION", .format = Format::RG32_Float},
+                                 {.semantic = "COLOR",
+                                  .format = Format::RGBA8_UNorm,
+                                  .slot = 1,
+                                  .inputClass = InputClass::PerInstance,
+                                  .stepRate = 2},
+                                 {.semantic = "TEXCOORD",
+                                  .semanticIndex = 2,
+                                  .format = Format::RG32_Float,
+                                  .slot = 5,
+                                  .inputClass = InputClass::PerInstance,
+                                  .stepRate = 1}};
   const Ref<IBuffer> a = gpu.BufferOf(Bind::VertexBuffer, corners), b = gpu.BufferOf(Bind::VertexBuffer, colors),
                      c = gpu.BufferOf(Bind::VertexBuffer, offsets);
   gpu.Clear(row, {0, 0, 0, 0});
@@ -158,7 +176,9 @@ TEST_P(InputTest, InstanceStepRate) {
   gpu.SetVertices(b.get(), 4, 0, 1);
   gpu.SetVertices(c.get(), 8, 0, 5);
   context.DrawInstanced(4, 6, 0, 0);
-  EXPECT_TRUE(Matches(gpu.Read(row), [](uint32_t x, auto) { return x < 6 ? Rgba8{uint8_t(x / 2 + 1), 0, 0, 255} : Rgba8{0, 0, 0, 0}; }));
+  EXPECT_TRUE(Matches(gpu.Read(row), [](uint32_t x, auto) {
+    return x < 6 ? Rgba8{uint8_t(x / 2 + 1), 0, 0, 255} : Rgba8{0, 0, 0, 0};
+  }));
   gpu.Clear(row, {0, 0, 0, 0});
   context.DrawInstanced(4, 4, 0, 3);  // instances 3..6: the element is start + index / step
   EXPECT_TRUE(Matches(gpu.Read(row), [](uint32_t x, auto) {
@@ -169,7 +189,8 @@ TEST_P(InputTest, InstanceStepRate) {
 TEST_P(InputTest, MissingElementOfTheLayoutIsRefused) {
   sink.Expect(MsgCode::LayoutMismatch, "the shader reads COLOR1");
   Ref<IInputLayout> none;
-  EXPECT_EQ(device.CreateInputLayout(kIdLayout, 1, gpu.Shader(test_shaders::ids_VSIds).get(), &none), Status::InvalidArg);
+  EXPECT_EQ(device.CreateInputLayout(kIdLayout, 1, gpu.Shader(test_shaders::ids_VSIds).get(), &none),
+            Status::InvalidArg);
   EXPECT_FALSE(none);
 }
 

@@ -20,26 +20,40 @@ class MsaaTest : public RhiTest {
 TEST_P(MsaaTest, ResolveOfWholePixelsIsExact) {
   const Target target = Start(16);
   gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0.2f, 0.4f, 0.6f, 0.8f}, .rectangle = {-1, 1, 0, -1}});
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 8 ? Rgba8{51, 102, 153, 204} : Rgba8{0, 0, 0, 0}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
+    return x < 8 ? Rgba8{51, 102, 153, 204} : Rgba8{0, 0, 0, 0};
+  }));
 }
 
 TEST_P(MsaaTest, ResolveAveragesTheSamples) {
   const Target target = Start(16);
   gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {-1, 1, 1 / 16.f, -1}});  // to the middle of pixel 8
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
-    const uint8_t v = x < 8 ? 255 : x == 8 ? 128 : 0;
-    return Rgba8{v, v, v, v};
-  }, 1));
+  EXPECT_TRUE(Matches(
+      gpu.Read(target),
+      [](uint32_t x, auto) {
+        const uint8_t v = x < 8 ? 255 : x == 8 ? 128 : 0;
+        return Rgba8{v, v, v, v};
+      },
+      1));
 }
 
 TEST_P(MsaaTest, ResolveIntoALayer) {
   const Target target = Start(16);
   gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {1, 0, 1, 1}});
-  const Ref<ITexture> array = gpu.TextureOf<Rgba8>({.dim = TextureDim::Tex2DArray, .width = 16, .height = 4, .depthOrArray = 3, .format = Format::RGBA8_UNorm,
-                                                    .bind = Bind::RenderTarget | Bind::ShaderResource}, [](auto, auto, auto, auto) { return Rgba8{1, 2, 3, 4}; });
+  const Ref<ITexture> array = gpu.TextureOf<Rgba8>({.dim = TextureDim::Tex2DArray,
+                                                    .width = 16,
+                                                    .height = 4,
+                                                    .depthOrArray = 3,
+                                                    .format = Format::RGBA8_UNorm,
+                                                    .bind = Bind::RenderTarget | Bind::ShaderResource},
+                                                   [](auto, auto, auto, auto) {
+                                                     return Rgba8{1, 2, 3, 4};
+                                                   });
   context.ResolveSubresource(array.get(), 1, target.color.get(), 0, Format::RGBA8_UNorm);
   for (uint32_t slice = 0; slice < 3; ++slice)
-    EXPECT_TRUE(Matches(gpu.Read(array.get(), 0, slice), [&](auto, auto) { return slice == 1 ? Rgba8{255, 0, 255, 255} : Rgba8{1, 2, 3, 4}; })) << slice;
+    EXPECT_TRUE(Matches(gpu.Read(array.get(), 0, slice), [&](auto, auto) {
+      return slice == 1 ? Rgba8{255, 0, 255, 255} : Rgba8{1, 2, 3, 4};
+    })) << slice;
 }
 
 TEST_P(MsaaTest, SrgbResolveIsLinear) {
@@ -82,10 +96,13 @@ TEST_P(MsaaTest, SampleMask) {
     gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {left, 1, left + 0.25f, -1}});
   }
   const int samples[] = {0, 1, 2, 3, 4, 1, 2, 0};
-  EXPECT_TRUE(Matches(gpu.Read(target), [&](uint32_t x, auto) {
-    const uint8_t v = ToUnorm8(samples[x / 2] / 4.0);
-    return Rgba8{v, v, v, v};
-  }, 1));
+  EXPECT_TRUE(Matches(
+      gpu.Read(target),
+      [&](uint32_t x, auto) {
+        const uint8_t v = ToUnorm8(samples[x / 2] / 4.0);
+        return Rgba8{v, v, v, v};
+      },
+      1));
 }
 
 TEST_P(MsaaTest, DepthOfEachSample) {
@@ -93,17 +110,23 @@ TEST_P(MsaaTest, DepthOfEachSample) {
   gpu.Clear(target, {0, 0, 0, 0}, 1);
   gpu.SetTarget(target);
   context.RSSetState(gpu.Rasterizer({.multisample = true}).get());
-  gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {1, 0, 0, 1}, .rectangle = {-1, 1, 1 / 16.f, -1}, .extra = {0.25f, 0, 0, 0}});
+  gpu.DrawRect(test_shaders::rect_PSTint,
+               {.tint = {1, 0, 0, 1}, .rectangle = {-1, 1, 1 / 16.f, -1}, .extra = {0.25f, 0, 0, 0}});
   gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0, 1, 0, 1}, .extra = {0.5f, 0, 0, 0}});
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
-    return x < 8 ? Rgba8{255, 0, 0, 255} : x == 8 ? Rgba8{128, 128, 0, 255} : Rgba8{0, 255, 0, 255};
-  }, 1));
+  EXPECT_TRUE(Matches(
+      gpu.Read(target),
+      [](uint32_t x, auto) {
+        return x < 8 ? Rgba8{255, 0, 0, 255} : x == 8 ? Rgba8{128, 128, 0, 255} : Rgba8{0, 255, 0, 255};
+      },
+      1));
 }
 
 TEST_P(MsaaTest, WrongResolvesAreReported) {
   const Target target = Start(16);
-  const Ref<ITexture> small = gpu.Texture({.width = 8, .height = 4, .format = Format::RGBA8_UNorm, .bind = Bind::RenderTarget});
-  const Ref<ITexture> other = gpu.Texture({.width = 16, .height = 4, .format = Format::RGBA16_Float, .bind = Bind::RenderTarget});
+  const Ref<ITexture> small =
+      gpu.Texture({.width = 8, .height = 4, .format = Format::RGBA8_UNorm, .bind = Bind::RenderTarget});
+  const Ref<ITexture> other =
+      gpu.Texture({.width = 16, .height = 4, .format = Format::RGBA16_Float, .bind = Bind::RenderTarget});
   sink.Allow(MsgCode::FormatMismatch, "formats differ");
   sink.Allow(MsgCode::InvalidDesc, "sizes differ");
   sink.Allow(MsgCode::OutOfBounds, "sizes differ");

@@ -35,11 +35,19 @@ void DrawSampled(Gpu& gpu, Format format, const SamplerDesc& sampler, float scal
 void DrawTrilinear(Gpu& gpu, const Target&) {
   DrawSampled(gpu, Format::RGBA8_UNorm, {.u = AddressMode::Wrap, .v = AddressMode::Mirror}, 3.3f);
 }
-void DrawSrgbTexture(Gpu& gpu, const Target&) { DrawSampled(gpu, Format::RGBA8_UNorm_sRGB, {.u = AddressMode::Wrap, .v = AddressMode::Wrap}, 0.9f); }
+void DrawSrgbTexture(Gpu& gpu, const Target&) {
+  DrawSampled(gpu, Format::RGBA8_UNorm_sRGB, {.u = AddressMode::Wrap, .v = AddressMode::Wrap}, 0.9f);
+}
 void DrawAniso(Gpu& gpu, const Target&) {
   gpu.SetTexture(Stage::Pixel, 0, NoiseTexture(gpu, Format::RGBA8_UNorm).get());
   const Filter f = gpu.device->GetCaps().samplerAnisotropy ? Filter::Anisotropic : Filter::Linear;
-  gpu.SetSampler(Stage::Pixel, 0, {.min = f, .mag = f, .mip = f, .u = AddressMode::Wrap, .v = AddressMode::Wrap, .maxAniso = f == Filter::Linear ? 1u : 8u});
+  gpu.SetSampler(Stage::Pixel, 0,
+                 {.min = f,
+                  .mag = f,
+                  .mip = f,
+                  .u = AddressMode::Wrap,
+                  .v = AddressMode::Wrap,
+                  .maxAniso = f == Filter::Linear ? 1u : 8u});
   gpu.DrawRect(test_shaders::sample_PSStretched);
 }
 
@@ -73,7 +81,11 @@ void DrawTriangles(Gpu& gpu, const Target&) {
 
 void DrawBlended(Gpu& gpu, const Target& target) {
   BlendDesc over;
-  over.rt[0] = {.enable = true, .src = rhi::Blend::SrcAlpha, .dest = rhi::Blend::InvSrcAlpha, .srcAlpha = rhi::Blend::One, .destAlpha = rhi::Blend::InvSrcAlpha};
+  over.rt[0] = {.enable = true,
+                .src = rhi::Blend::SrcAlpha,
+                .dest = rhi::Blend::InvSrcAlpha,
+                .srcAlpha = rhi::Blend::One,
+                .destAlpha = rhi::Blend::InvSrcAlpha};
   gpu.context->OMSetBlendState(gpu.Blend(over).get());
   gpu.context->OMSetDepthStencilState(gpu.DepthStencil({.depthEnable = false}).get());
   DrawTriangles(gpu, target);
@@ -122,13 +134,16 @@ class ParityTest : public testing::TestWithParam<Scene> {};
 TEST_P(ParityTest, EveryBackendGivesTheSameBytes) {
   const std::vector<Backend> backends = Backends();
   const Image first = Draw(backends[0], GetParam());
-  for (size_t i = 1; i < backends.size(); ++i) EXPECT_TRUE(SameImage(first, Draw(backends[i], GetParam()))) << BackendName(backends[i]);
+  for (size_t i = 1; i < backends.size(); ++i)
+    EXPECT_TRUE(SameImage(first, Draw(backends[i], GetParam()))) << BackendName(backends[i]);
 }
 
 // A small error of one backend must show: here it is planted.
 TEST(Parity, ADeliberateDifferenceIsCaught) {
   Scene other = kScenes[0];
-  other.draw = [](Gpu& gpu, const Target&) { gpu.DrawRect(test_shaders::rect_PSPattern, {.tint = {0.3001f, 0.7f, 0, 0}}); };
+  other.draw = [](Gpu& gpu, const Target&) {
+    gpu.DrawRect(test_shaders::rect_PSPattern, {.tint = {0.3001f, 0.7f, 0, 0}});
+  };
   const Image a = Draw(Backend::Vulkan, kScenes[0]), b = Draw(Backend::OpenGL, other);
   EXPECT_FALSE(SameImage(a, b));
 }
@@ -139,11 +154,18 @@ TEST(Parity, GenerateMipsOfAnArray) {
     std::vector<std::vector<Image>> levels;
     for (const Backend backend : Backends()) {
       Gpu& gpu = SharedGpu(backend);
-      const Ref<ITexture> t = gpu.TextureOf<Rgba8>({.dim = TextureDim::Tex2DArray, .width = 40, .height = 24, .depthOrArray = 3, .mipLevels = 0, .format = format,
-                                                    .bind = Bind::ShaderResource | Bind::RenderTarget}, [](uint32_t x, uint32_t y, uint32_t mip, uint32_t slice) {
-        const uint32_t h = (x * 374761393u + y * 668265263u + slice * 77777u) * 1274126177u;
-        return mip ? Rgba8{} : Rgba8{uint8_t(h >> 3), uint8_t(h >> 11), uint8_t(h >> 19), uint8_t(h >> 24)};
-      });
+      const Ref<ITexture> t = gpu.TextureOf<Rgba8>(
+          {.dim = TextureDim::Tex2DArray,
+           .width = 40,
+           .height = 24,
+           .depthOrArray = 3,
+           .mipLevels = 0,
+           .format = format,
+           .bind = Bind::ShaderResource | Bind::RenderTarget},
+          [](uint32_t x, uint32_t y, uint32_t mip, uint32_t slice) {
+            const uint32_t h = (x * 374761393u + y * 668265263u + slice * 77777u) * 1274126177u;
+            return mip ? Rgba8{} : Rgba8{uint8_t(h >> 3), uint8_t(h >> 11), uint8_t(h >> 19), uint8_t(h >> 24)};
+          });
       gpu.context->GenerateMips(gpu.View(t.get()).get());
       std::vector<Image>& mine = levels.emplace_back();
       for (uint32_t slice = 0; slice < 3; ++slice)
@@ -151,11 +173,13 @@ TEST(Parity, GenerateMipsOfAnArray) {
       gpu.Finish();
       gpu.sink.Verify();
     }
-    for (size_t i = 0; i < levels[0].size(); ++i) EXPECT_TRUE(SameImage(levels[0][i], levels[1][i])) << ToString(format) << " level " << i;
+    for (size_t i = 0; i < levels[0].size(); ++i)
+      EXPECT_TRUE(SameImage(levels[0][i], levels[1][i])) << ToString(format) << " level " << i;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Rhi, ParityTest, testing::ValuesIn(kScenes), [](const auto& info) { return std::string(info.param.name); });
+std::string NameOfScene(const testing::TestParamInfo<Scene>& scene) { return scene.param.name; }
+INSTANTIATE_TEST_SUITE_P(Rhi, ParityTest, testing::ValuesIn(kScenes), NameOfScene);
 
 }  // namespace
 }  // namespace rhi_test

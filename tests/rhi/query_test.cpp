@@ -27,7 +27,10 @@ TEST_P(QueryTest, OcclusionExact) {
     float depth;
     uint64_t samples;
   };
-  const Case cases[] = {{Pixels(0, 0, 5, 3), 0.25f, 15}, {Pixels(3, 3, 16, 16), 0.75f, 0}, {Pixels(0, 0, 16, 16), 0.1f, 256}, {Pixels(7, 7, 8, 8), 0.05f, 1}};
+  const Case cases[] = {{Pixels(0, 0, 5, 3), 0.25f, 15},
+                        {Pixels(3, 3, 16, 16), 0.75f, 0},
+                        {Pixels(0, 0, 16, 16), 0.1f, 256},
+                        {Pixels(7, 7, 8, 8), 0.05f, 1}};
   std::vector<Ref<IQuery>> queries;
   for (const Case& c : cases) {
     queries.push_back(gpu.Query(QueryType::Occlusion));
@@ -35,7 +38,8 @@ TEST_P(QueryTest, OcclusionExact) {
     gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = c.rectangle, .extra = {c.depth, 0, 0, 0}});
     context.End(queries.back().get());
   }
-  for (size_t i = 0; i < std::size(cases); ++i) EXPECT_EQ(gpu.Result<uint64_t>(queries[i].get()), cases[i].samples) << i;
+  for (size_t i = 0; i < std::size(cases); ++i)
+    EXPECT_EQ(gpu.Result<uint64_t>(queries[i].get()), cases[i].samples) << i;
 }
 
 TEST_P(QueryTest, OcclusionOverTwoTargetsAndReuse) {
@@ -44,7 +48,8 @@ TEST_P(QueryTest, OcclusionOverTwoTargetsAndReuse) {
   for (uint32_t round = 1; round <= 2; ++round) {
     context.Begin(q.get());
     Start();
-    for (uint32_t i = 0; i < round; ++i) gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = Pixels(i, 0, i + 1, 4), .extra = {0.1f, 0, 0, 0}});
+    for (uint32_t i = 0; i < round; ++i)
+      gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = Pixels(i, 0, i + 1, 4), .extra = {0.1f, 0, 0, 0}});
     Start();
     gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = Pixels(0, 0, 2, 2), .extra = {0.1f, 0, 0, 0}});
     context.End(q.get());

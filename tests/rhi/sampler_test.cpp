@@ -12,9 +12,10 @@ class SamplerTest : public RhiTest {
  protected:
   // 4 x 4, each texel another value.
   Ref<ITexture> Small() {
-    return gpu.TextureOf<Rgba8>({.width = 4, .height = 4, .format = Format::RGBA8_UNorm}, [](uint32_t x, uint32_t y, auto, auto) {
-      return Rgba8{uint8_t(x * 60 + 10), uint8_t(y * 50 + 20), uint8_t(x * y * 20), 255};
-    });
+    return gpu.TextureOf<Rgba8>({.width = 4, .height = 4, .format = Format::RGBA8_UNorm},
+                                [](uint32_t x, uint32_t y, auto, auto) {
+                                  return Rgba8{uint8_t(x * 60 + 10), uint8_t(y * 50 + 20), uint8_t(x * y * 20), 255};
+                                });
   }
   // u and v go from -1 to 2.
   Image DrawRepeated(const SamplerDesc& desc) {
@@ -103,7 +104,9 @@ TEST_P(SamplerTest, OtherBordersByCap) {
 // Each mip has a value of its own.
 Ref<ITexture> MipValues(Gpu& gpu) {
   return gpu.TextureOf<Rgba8>({.width = 16, .height = 16, .mipLevels = 0, .format = Format::RGBA8_UNorm},
-                              [](auto, auto, uint32_t mip, auto) { return Rgba8{uint8_t(mip * 50), 0, 0, 255}; });
+                              [](auto, auto, uint32_t mip, auto) {
+                                return Rgba8{uint8_t(mip * 50), 0, 0, 255};
+                              });
 }
 
 TEST_P(SamplerTest, LodClampBiasAndMipFilter) {
@@ -112,17 +115,23 @@ TEST_P(SamplerTest, LodClampBiasAndMipFilter) {
     float bias, minLod, maxLod, level;
     uint8_t expected;
   };
-  const Case cases[] = {{Filter::Point, 0, 0, 1000, 2, 100},       {Filter::Point, 0, 0, 1000, 2.4f, 100},
-                        {Filter::Point, 0, 0, 1000, 2.6f, 150},    {Filter::Linear, 0, 0, 1000, 2.5f, 125},
-                        {Filter::Linear, 0, 1.5f, 1000, 0, 75},    {Filter::Linear, 0, 0, 2, 4, 100},
-                        {Filter::Linear, 0, 0, 0, 4, 0},           {Filter::Point, 0, 3, 3, 0, 150}};
+  const Case cases[] = {{Filter::Point, 0, 0, 1000, 2, 100},    {Filter::Point, 0, 0, 1000, 2.4f, 100},
+                        {Filter::Point, 0, 0, 1000, 2.6f, 150}, {Filter::Linear, 0, 0, 1000, 2.5f, 125},
+                        {Filter::Linear, 0, 1.5f, 1000, 0, 75}, {Filter::Linear, 0, 0, 2, 4, 100},
+                        {Filter::Linear, 0, 0, 0, 4, 0},        {Filter::Point, 0, 3, 3, 0, 150}};
   const Target target = gpu.MakeTarget({.width = 2, .height = 2});
   gpu.SetTarget(target);
   gpu.SetTexture(Stage::Pixel, 0, MipValues(gpu).get());
   for (const Case& c : cases) {
     gpu.SetSampler(Stage::Pixel, 0, {.mip = c.mip, .mipBias = c.bias, .minLod = c.minLod, .maxLod = c.maxLod});
     gpu.DrawRect(test_shaders::sample_PSSampleLevel, {.extra = {0, 0, 0, c.level}});
-    EXPECT_TRUE(Matches(gpu.Read(target), [&](auto, auto) { return Rgba8{c.expected, 0, 0, 255}; }, 1)) << c.level << ' ' << c.minLod;
+    EXPECT_TRUE(Matches(
+        gpu.Read(target),
+        [&](auto, auto) {
+          return Rgba8{c.expected, 0, 0, 255};
+        },
+        1))
+        << c.level << ' ' << c.minLod;
   }
 }
 
@@ -133,7 +142,9 @@ TEST_P(SamplerTest, ImplicitLodAndBias) {
   for (const int bias : {-1, 0, 1}) {
     gpu.SetSampler(Stage::Pixel, 0, {.mip = Filter::Point, .mipBias = float(bias)});
     gpu.DrawRect(test_shaders::sample_PSSample, {.extra = {0, 1, 0, 0}});
-    EXPECT_TRUE(Matches(gpu.Read(target), [&](auto, auto) { return Rgba8{uint8_t(100 + 50 * bias), 0, 0, 255}; })) << bias;
+    EXPECT_TRUE(Matches(gpu.Read(target), [&](auto, auto) {
+      return Rgba8{uint8_t(100 + 50 * bias), 0, 0, 255};
+    })) << bias;
   }
 }
 
@@ -160,19 +171,25 @@ TEST_P(SamplerTest, OneTextureTwoSamplers) {
 TEST_P(SamplerTest, OneSamplerTwoTextures) {
   const Target target = gpu.MakeTarget({.width = 8, .height = 8});
   const auto solid = [&](uint8_t v) {
-    return gpu.TextureOf<Rgba8>({.width = 2, .height = 2, .format = Format::RGBA8_UNorm}, [v](auto, auto, auto, auto) { return Rgba8{v, v, v, v}; });
+    return gpu.TextureOf<Rgba8>({.width = 2, .height = 2, .format = Format::RGBA8_UNorm}, [v](auto, auto, auto, auto) {
+      return Rgba8{v, v, v, v};
+    });
   };
   gpu.SetTarget(target);
   gpu.SetTexture(Stage::Pixel, 0, solid(40).get());
   gpu.SetTexture(Stage::Pixel, 1, solid(90).get());
   gpu.SetSampler(Stage::Pixel, 0, {});
   gpu.DrawRect(test_shaders::sample_PSTwoTextures);
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { const uint8_t v = x < 4 ? 40 : 90; return Rgba8{v, v, v, v}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
+    const uint8_t v = x < 4 ? 40 : 90;
+    return Rgba8{v, v, v, v};
+  }));
 }
 
 TEST_P(SamplerTest, ComparisonOfADepthTexture) {
   const Target shadow = gpu.MakeTarget({.width = 4, .height = 4});
-  const Ref<ITexture> depth = gpu.Texture({.width = 4, .height = 4, .format = Format::D32_Float, .bind = Bind::DepthStencil | Bind::ShaderResource});
+  const Ref<ITexture> depth = gpu.Texture(
+      {.width = 4, .height = 4, .format = Format::D32_Float, .bind = Bind::DepthStencil | Bind::ShaderResource});
   const Ref<IDepthStencilView> dsv = gpu.DepthView(depth.get());
   context.ClearDepthStencilView(dsv.get(), true, 0.5f, false, 0);
   gpu.SetTarget(shadow);
@@ -181,23 +198,34 @@ TEST_P(SamplerTest, ComparisonOfADepthTexture) {
     Comparison func;
     float reference;
     bool lit;
-  } cases[] = {{Comparison::LessEqual, 0.4f, true}, {Comparison::LessEqual, 0.6f, false}, {Comparison::Greater, 0.6f, true},
-               {Comparison::Greater, 0.5f, false}, {Comparison::Always, 2, true},         {Comparison::Never, 0, false},
-               {Comparison::Equal, 0.5f, true},    {Comparison::NotEqual, 0.5f, false}};
+  } cases[] = {{Comparison::LessEqual, 0.4f, true}, {Comparison::LessEqual, 0.6f, false},
+               {Comparison::Greater, 0.6f, true},   {Comparison::Greater, 0.5f, false},
+               {Comparison::Always, 2, true},       {Comparison::Never, 0, false},
+               {Comparison::Equal, 0.5f, true},     {Comparison::NotEqual, 0.5f, false}};
   for (const auto& c : cases) {
     gpu.SetSampler(Stage::Pixel, 2, {.comparison = true, .func = c.func});
     gpu.DrawRect(test_shaders::sample_PSCompare, {.extra = {0, c.reference, 0, 0}});
     const uint8_t v = c.lit ? 255 : 0;
-    EXPECT_TRUE(Matches(gpu.Read(shadow), [v](auto, auto) { return Rgba8{v, v, v, 255}; })) << int(c.func) << ' ' << c.reference;
+    EXPECT_TRUE(Matches(gpu.Read(shadow),
+                        [v](auto, auto) {
+                          return Rgba8{v, v, v, 255};
+                        }))
+        << int(c.func) << ' ' << c.reference;
   }
 }
 
 // Rows of texels that only anisotropic filtering keeps apart when the coordinates are stretched across them.
 TEST_P(SamplerTest, AnisoMonotone) {
   RHI_NEEDS_CAP(samplerAnisotropy);
-  const Ref<ITexture> rows =
-      gpu.TextureOf<Rgba8>({.width = 64, .height = 64, .mipLevels = 0, .format = Format::RGBA8_UNorm, .bind = Bind::ShaderResource | Bind::RenderTarget},
-                           [](auto, uint32_t y, auto, auto) { const uint8_t v = (y & 4) ? 255 : 0; return Rgba8{v, v, v, 255}; });
+  const Ref<ITexture> rows = gpu.TextureOf<Rgba8>({.width = 64,
+                                                   .height = 64,
+                                                   .mipLevels = 0,
+                                                   .format = Format::RGBA8_UNorm,
+                                                   .bind = Bind::ShaderResource | Bind::RenderTarget},
+                                                  [](auto, uint32_t y, auto, auto) {
+                                                    const uint8_t v = (y & 4) ? 255 : 0;
+                                                    return Rgba8{v, v, v, 255};
+                                                  });
   context.GenerateMips(gpu.View(rows.get()).get());
   const Target target = gpu.MakeTarget({.width = 32, .height = 32});
   gpu.SetTarget(target);
@@ -205,7 +233,8 @@ TEST_P(SamplerTest, AnisoMonotone) {
   double last = -1, first = 0;
   for (const uint32_t ratio : {1u, 2u, 4u, 8u, 16u}) {
     const Filter f = ratio == 1 ? Filter::Linear : Filter::Anisotropic;
-    gpu.SetSampler(Stage::Pixel, 0, {.min = f, .mag = f, .mip = f, .u = AddressMode::Wrap, .v = AddressMode::Wrap, .maxAniso = ratio});
+    gpu.SetSampler(Stage::Pixel, 0,
+                   {.min = f, .mag = f, .mip = f, .u = AddressMode::Wrap, .v = AddressMode::Wrap, .maxAniso = ratio});
     gpu.DrawRect(test_shaders::sample_PSStretched);
     const Image image = gpu.Read(target);
     double contrast = 0;

@@ -17,11 +17,13 @@ class StateTest : public RhiTest {
       BlendDesc blend;
       blend.rt[0].writeMask = uint8_t(i % 2 ? 0xF : 0x3);
       context.OMSetBlendState(gpu.Blend(blend).get());
-      context.OMSetDepthStencilState(gpu.DepthStencil({.depthFunc = i % 4 < 2 ? Comparison::Less : Comparison::Always}).get());
+      context.OMSetDepthStencilState(
+          gpu.DepthStencil({.depthFunc = i % 4 < 2 ? Comparison::Less : Comparison::Always}).get());
       context.RSSetState(gpu.Rasterizer({.cull = i % 8 < 4 ? CullMode::Back : CullMode::None}).get());
       const float left = float(i) / 4 - 1;
-      gpu.DrawRect(i % 3 ? test_shaders::rect_PSTint : test_shaders::rect_PSUv,
-                   {.tint = {0.1f * float(i), 0.5f, 1, 1}, .rectangle = {left, 1, left + 0.25f, -1}, .extra = {0.5f, 0, 0, 0}});
+      gpu.DrawRect(
+          i % 3 ? test_shaders::rect_PSTint : test_shaders::rect_PSUv,
+          {.tint = {0.1f * float(i), 0.5f, 1, 1}, .rectangle = {left, 1, left + 0.25f, -1}, .extra = {0.5f, 0, 0, 0}});
     }
     return gpu.Read(target);
   }
@@ -44,7 +46,8 @@ TEST_P(StateTest, EqualDescSameObject) {
 
 TEST_P(StateTest, DescIsKept) {
   EXPECT_EQ(gpu.Rasterizer({.cull = CullMode::Front, .frontCCW = true, .depthBias = -4})->Desc().depthBias, -4);
-  EXPECT_EQ(gpu.Sampler({.u = AddressMode::Mirror, .maxLod = 2})->Desc(), (SamplerDesc{.u = AddressMode::Mirror, .maxLod = 2}));
+  EXPECT_EQ(gpu.Sampler({.u = AddressMode::Mirror, .maxLod = 2})->Desc(),
+            (SamplerDesc{.u = AddressMode::Mirror, .maxLod = 2}));
 }
 
 TEST_P(StateTest, SwitchOrderIndependent) {

@@ -14,14 +14,21 @@ Rgba8 Mark(uint32_t x, uint32_t y, uint32_t mip, uint32_t slice) {
 auto MarkOf(uint32_t mip, uint32_t slice) {
   return [=](uint32_t x, uint32_t y) { return Mark(x, y, mip, slice); };
 }
-constexpr TextureDesc kArray{.dim = TextureDim::Tex2DArray, .width = 16, .height = 8, .depthOrArray = 5, .mipLevels = 0,
-                             .format = Format::RGBA8_UNorm, .bind = Bind::ShaderResource, .name = "array"};
+constexpr TextureDesc kArray{.dim = TextureDim::Tex2DArray,
+                             .width = 16,
+                             .height = 8,
+                             .depthOrArray = 5,
+                             .mipLevels = 0,
+                             .format = Format::RGBA8_UNorm,
+                             .bind = Bind::ShaderResource,
+                             .name = "array"};
 
 TEST_P(TextureTest, ArrayInitOfEachLayerAndMip) {
   const Ref<ITexture> t = gpu.TextureOf<Rgba8>(kArray, Mark);
   EXPECT_EQ(t->Desc().mipLevels, 5u);
   for (uint32_t slice = 0; slice < 5; ++slice)
-    for (uint32_t mip = 0; mip < 5; ++mip) EXPECT_TRUE(Matches(gpu.Read(t.get(), mip, slice), MarkOf(mip, slice))) << mip << ' ' << slice;
+    for (uint32_t mip = 0; mip < 5; ++mip)
+      EXPECT_TRUE(Matches(gpu.Read(t.get(), mip, slice), MarkOf(mip, slice))) << mip << ' ' << slice;
 }
 
 TEST_P(TextureTest, ArrayUpdateOfEachLayerAndMip) {
@@ -34,7 +41,8 @@ TEST_P(TextureTest, ArrayUpdateOfEachLayerAndMip) {
       context.UpdateSubresource(t.get(), Subresource(mip, slice, 5), nullptr, data.data(), w * 4, 0);
     }
   for (uint32_t slice = 0; slice < 5; ++slice)
-    for (uint32_t mip = 0; mip < 5; ++mip) EXPECT_TRUE(Matches(gpu.Read(t.get(), mip, slice), MarkOf(mip, slice))) << mip << ' ' << slice;
+    for (uint32_t mip = 0; mip < 5; ++mip)
+      EXPECT_TRUE(Matches(gpu.Read(t.get(), mip, slice), MarkOf(mip, slice))) << mip << ' ' << slice;
 }
 
 TEST_P(TextureTest, UpdateOfABoxWithRowPitch) {
@@ -56,10 +64,12 @@ TEST_P(TextureTest, NpotRowsOfEveryByteCount) {
   const auto two = [](uint32_t x, uint32_t y) { return std::array<uint8_t, 2>{uint8_t(x), uint8_t(y)}; };
   for (const uint32_t width : {1u, 3u, 5u, 7u, 13u}) {
     const TextureDesc desc{.width = width, .height = 3, .format = Format::R8_UNorm};
-    const Ref<ITexture> t = gpu.TextureOf<std::array<uint8_t, 1>>(desc, [&](auto x, auto y, auto, auto) { return one(x, y); });
+    const Ref<ITexture> t =
+        gpu.TextureOf<std::array<uint8_t, 1>>(desc, [&](auto x, auto y, auto, auto) { return one(x, y); });
     EXPECT_TRUE(Matches(gpu.Read(t.get()), one)) << width;
-    const Ref<ITexture> u = gpu.TextureOf<std::array<uint8_t, 2>>({.width = width, .height = 3, .format = Format::RG8_UNorm},
-                                                                 [&](auto x, auto y, auto, auto) { return two(x, y); });
+    const Ref<ITexture> u =
+        gpu.TextureOf<std::array<uint8_t, 2>>({.width = width, .height = 3, .format = Format::RG8_UNorm},
+                                              [&](auto x, auto y, auto, auto) { return two(x, y); });
     EXPECT_TRUE(Matches(gpu.Read(u.get()), two)) << width;
   }
 }
@@ -119,8 +129,8 @@ TEST_P(TextureTest, CopyResourceOfAllSubresources) {
 }
 
 TEST_P(TextureTest, StagingWriteThenCopy) {
-  const Ref<ITexture> staging =
-      gpu.Texture({.width = 5, .height = 3, .format = Format::RGBA8_UNorm, .usage = Usage::Staging, .bind = Bind::None});
+  const Ref<ITexture> staging = gpu.Texture(
+      {.width = 5, .height = 3, .format = Format::RGBA8_UNorm, .usage = Usage::Staging, .bind = Bind::None});
   const Ref<ITexture> t = gpu.Texture({.width = 5, .height = 3, .format = Format::RGBA8_UNorm});
   Mapped m;
   ASSERT_EQ(context.Map(staging.get(), 0, MapMode::Write, &m), Status::Ok);
@@ -181,9 +191,11 @@ TEST_P(TextureTest, ViewOfSomeLayersAndMips) {
 }
 
 TEST_P(TextureTest, CubeFacesAndVolumeSlices) {
-  const TextureDesc cubeDesc{.dim = TextureDim::TexCube, .width = 4, .height = 4, .depthOrArray = 6, .format = Format::RGBA8_UNorm};
-  const Ref<ITexture> cube =
-      gpu.TextureOf<Rgba8>(cubeDesc, [](auto, auto, auto, uint32_t face) { return Rgba8{uint8_t(face + 1), 0, 0, 255}; });
+  const TextureDesc cubeDesc{
+      .dim = TextureDim::TexCube, .width = 4, .height = 4, .depthOrArray = 6, .format = Format::RGBA8_UNorm};
+  const Ref<ITexture> cube = gpu.TextureOf<Rgba8>(cubeDesc, [](auto, auto, auto, uint32_t face) {
+    return Rgba8{uint8_t(face + 1), 0, 0, 255};
+  });
   const Target target = gpu.MakeTarget({.width = 2, .height = 2});
   gpu.SetTarget(target);
   gpu.SetTexture(Stage::Pixel, 3, cube.get());
@@ -196,17 +208,21 @@ TEST_P(TextureTest, CubeFacesAndVolumeSlices) {
   std::vector<Rgba8> voxels;
   for (uint32_t i = 0; i < 2 * 2 * 4; ++i) voxels.push_back({uint8_t(i), uint8_t(i / 4), 0, 255});
   const SubresourceData init{voxels.data(), 8, 16};
-  const Ref<ITexture> volume =
-      gpu.Texture({.dim = TextureDim::Tex3D, .width = 2, .height = 2, .depthOrArray = 4, .format = Format::RGBA8_UNorm}, &init);
+  const Ref<ITexture> volume = gpu.Texture(
+      {.dim = TextureDim::Tex3D, .width = 2, .height = 2, .depthOrArray = 4, .format = Format::RGBA8_UNorm}, &init);
   EXPECT_EQ(gpu.Read(volume.get()).bytes[4 * 15], 15);
   gpu.SetTexture(Stage::Pixel, 4, volume.get());
   gpu.DrawRect(test_shaders::sample_PSVolume, {.extra = {0, 0.625f, 0, 0}});
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) { return Rgba8{uint8_t(8 + y * 2 + x), 2, 0, 255}; }));
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) {
+    return Rgba8{uint8_t(8 + y * 2 + x), 2, 0, 255};
+  }));
 }
 
 // Direct3D and Vulkan round the layer to the nearest, ties to even, and clamp it.
 TEST_P(TextureTest, ArraySampleLayerRounding) {
-  const Ref<ITexture> t = gpu.TextureOf<Rgba8>(kArray, [](auto, auto, auto, uint32_t slice) { return Rgba8{uint8_t(slice), 0, 0, 255}; });
+  const Ref<ITexture> t = gpu.TextureOf<Rgba8>(kArray, [](auto, auto, auto, uint32_t slice) {
+    return Rgba8{uint8_t(slice), 0, 0, 255};
+  });
   const Target target = gpu.MakeTarget({.width = 64, .height = 1});
   gpu.SetTarget(target);
   gpu.SetTexture(Stage::Pixel, 2, t.get());
@@ -232,9 +248,12 @@ TEST_P(TextureTest, FloatFormatsKeepTheirBits) {
 }
 
 TEST_P(TextureTest, BgraIsSwizzledInMemoryOnly) {
-  const Ref<ITexture> t = gpu.TextureOf<Rgba8>({.width = 2, .height = 2, .format = Format::BGRA8_UNorm},
-                                               [](auto, auto, auto, auto) { return Rgba8{10, 20, 30, 40}; });
-  const Target target = gpu.MakeTarget({.width = 2, .height = 2}), same = gpu.MakeTarget({.width = 2, .height = 2, .format = Format::BGRA8_UNorm});
+  const Ref<ITexture> t =
+      gpu.TextureOf<Rgba8>({.width = 2, .height = 2, .format = Format::BGRA8_UNorm}, [](auto, auto, auto, auto) {
+        return Rgba8{10, 20, 30, 40};
+      });
+  const Target target = gpu.MakeTarget({.width = 2, .height = 2}),
+               same = gpu.MakeTarget({.width = 2, .height = 2, .format = Format::BGRA8_UNorm});
   gpu.SetTexture(Stage::Pixel, 0, t.get());
   gpu.SetTarget(target);
   gpu.DrawRect(test_shaders::sample_PSLoad);

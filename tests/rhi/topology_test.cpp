@@ -11,7 +11,8 @@ using namespace rhi;
 using Primitive = std::vector<uint32_t>;  // vertex numbers
 using Primitives = std::vector<Primitive>;
 
-// Vulkan's table of triangle strips with adjacency; Direct3D's and GL's say the same.
+// Triangle i of a strip with adjacency has the even vertices 2i, 2i + 2, 2i + 4, in an order that keeps the winding.
+// Across its edges lie the vertex before, the one beyond, and at the side the odd one between its first and last.
 Primitives StripAdj(uint32_t count) {
   Primitives all;
   const uint32_t n = count < 6 ? 0 : (count - 4) / 2;
@@ -19,7 +20,7 @@ Primitives StripAdj(uint32_t count) {
     const bool first = i == 0, last = i + 1 == n, odd = i % 2 == 1;
     const uint32_t before = first ? 1 : 2 * i - 2, beyond = last ? 2 * i + 5 : 2 * i + 6, side = 2 * i + 3;
     // vertex, neighbour across the edge to the next, and so on around
-    all.push_back(odd ? Primitive{2 * i, before, 2 * i + 4, side, 2 * i + 2, beyond}
+    all.push_back(odd ? Primitive{2 * i, side, 2 * i + 4, beyond, 2 * i + 2, before}
                       : Primitive{2 * i, before, 2 * i + 2, beyond, 2 * i + 4, side});
   }
   return all;
@@ -76,7 +77,8 @@ class TopologyTest : public RhiTest {
     return [=](uint32_t x, uint32_t y) {
       if (x >= primitives.size()) return Rgba8{0, 0, 0, 0};
       Rgba8 texel{0, 0, 0, uint8_t(y ? 255 : 0)};
-      for (uint32_t i = y * 4; i < primitives[x].size() && i < y * 4 + 4; ++i) texel[i - y * 4] = uint8_t(ids[primitives[x][i]] + 1);
+      for (uint32_t i = y * 4; i < primitives[x].size() && i < y * 4 + 4; ++i)
+        texel[i - y * 4] = uint8_t(ids[primitives[x][i]] + 1);
       return texel;
     };
   }
@@ -96,10 +98,10 @@ class TopologyTest : public RhiTest {
   Target target;
 };
 
-constexpr PrimitiveTopology kAll[] = {PrimitiveTopology::PointList,    PrimitiveTopology::LineList,    PrimitiveTopology::LineStrip,
-                                      PrimitiveTopology::TriangleList, PrimitiveTopology::TriangleStrip, PrimitiveTopology::LineListAdj,
-                                      PrimitiveTopology::LineStripAdj, PrimitiveTopology::TriangleListAdj,
-                                      PrimitiveTopology::TriangleStripAdj};
+constexpr PrimitiveTopology kAll[] = {
+    PrimitiveTopology::PointList,    PrimitiveTopology::LineList,        PrimitiveTopology::LineStrip,
+    PrimitiveTopology::TriangleList, PrimitiveTopology::TriangleStrip,   PrimitiveTopology::LineListAdj,
+    PrimitiveTopology::LineStripAdj, PrimitiveTopology::TriangleListAdj, PrimitiveTopology::TriangleStripAdj};
 
 // Also the orders within primitives with adjacency, and that incomplete ones are dropped: every count from 1 to 14.
 TEST_P(TopologyTest, EachTopologyAndCount) {
@@ -108,7 +110,8 @@ TEST_P(TopologyTest, EachTopologyAndCount) {
     for (uint32_t count = 1; count <= 14; ++count) {
       Prepare(topology);
       context.Draw(count, 0);
-      EXPECT_TRUE(Matches(gpu.Read(target), Picture(Assemble(topology, count), Counting(count)))) << ToString(topology) << ' ' << count;
+      EXPECT_TRUE(Matches(gpu.Read(target), Picture(Assemble(topology, count), Counting(count))))
+          << ToString(topology) << ' ' << count;
     }
 }
 
@@ -174,7 +177,9 @@ TEST_P(TopologyTest, PointsAndLinesAreDrawn) {
     float position[3], color[4];
   };
   const Target row = gpu.MakeTarget({.width = 16, .height = 3});
-  const auto at = [](int x, int y) { return Vertex{{(float(x) + 0.5f) / 8 - 1, 1 - (float(y) + 0.5f) / 1.5f, 0.5f}, {1, 1, 1, 1}}; };
+  const auto at = [](int x, int y) {
+    return Vertex{{(float(x) + 0.5f) / 8 - 1, 1 - (float(y) + 0.5f) / 1.5f, 0.5f}, {1, 1, 1, 1}};
+  };
   const Ref<IBuffer> b = gpu.BufferOf(Bind::VertexBuffer, std::vector<Vertex>{at(1, 0), at(4, 1), at(9, 1), at(15, 2)});
   const InputElement layout[] = {{.semantic = "POSITION", .format = Format::RGB32_Float},
                                  {.semantic = "COLOR", .format = Format::RGBA32_Float, .offset = 12}};
@@ -192,7 +197,8 @@ TEST_P(TopologyTest, PointsAndLinesAreDrawn) {
   gpu.Clear(row, {0, 0, 0, 0});
   context.IASetPrimitiveTopology(PrimitiveTopology::LineList);
   context.Draw(2, 1);  // the last pixel of a line is not drawn
-  EXPECT_TRUE(Matches(gpu.Read(row), [&](uint32_t x, uint32_t y) { return y == 1 && x >= 4 && x < 9 ? white : black; }));
+  EXPECT_TRUE(
+      Matches(gpu.Read(row), [&](uint32_t x, uint32_t y) { return y == 1 && x >= 4 && x < 9 ? white : black; }));
 }
 
 RHI_ON_EVERY_BACKEND(TopologyTest);

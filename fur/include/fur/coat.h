@@ -26,6 +26,10 @@ struct StrandParams {
   double spread = 0.6;  // 0: all strands bend along +u; 1: each its own way
   uint32_t seed = 1;
 };
+// Tile width over fur length that the stored tangents assume, since a volume knows its width in texels only; the width
+// of the tile that a model without layer_uv_scale gets.
+inline constexpr double kTileOverLength = 4;
+
 FurVolume GrowStrands(const StrandParams& params);
 
 }  // namespace fur

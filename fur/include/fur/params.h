@@ -22,7 +22,8 @@ struct FurParams {
   double layerUvScale = 0;         // [layer_uv_scale] tiles across the unit UV square; 0: chosen so that strands have a
                                    // natural width
   uint32_t shells = 0;             // [shells] number of shells; 0: the number of layers, 16 at least
-  double selfShadow = 0.9;         // [self_shadow] light left at the root, 0..1 (source_self_shadow's first number)
+  double selfShadow = 0.5;         // [self_shadow] light left at the root, 0..1. The cat's extras say
+                                   // source_self_shadow = 0.9+0.1*i/16, which reads as 0.9
   double specularPower = 30;       // [specular_power] > 0
   double specularScale = 0.35;     // [specular_scale] >= 0
   double heightFalloff = 0;        // [height_falloff] share of the coverage lost at the tip, 0..1: a(h) (1 - f h). The cat's

@@ -18,11 +18,13 @@ struct Camera {
 glm::dmat4 ViewMatrix(const Camera&);                    // world -> view
 glm::dmat4 ProjectionMatrix(const Camera&, double aspect);  // view -> clip, depth 0 at zNear, 1 at zFar
 
-// One directional light. Colours are in the look's own space (raw for seed, linear for correct).
+// One directional light. Colours are in the look's own space: raw for look seed, linear for look correct.
 struct Light {
   glm::dvec3 direction{1, -1, 1};  // the way the light travels; need not be unit
-  glm::dvec3 diffuse{1}, ambient{0.3}, specular{0.5};
+  glm::dvec3 diffuse{0.85}, ambient{0.18}, specular{0.35};
 };
+// The published demo's light.
+inline constexpr Light kDemoLight{{1, -1, 1}, glm::dvec3(1), glm::dvec3(0.3), glm::dvec3(0.5)};
 
 // A power of two that brings the model to about the size of the published demo's cat (diameter 3.3 units): 1 for it.
 // Spacing, near and far plane are multiples of it, so that a fox of 150 units is treated as a cat of 3.
