@@ -17,6 +17,7 @@ namespace rhi_gl {
 enum OwnDirty : uint32_t {
   DirtyBarrier = 1u << 24,       // a dispatch wrote: the next reader needs a memory barrier
   DirtyUnusable = 1u << 25,      // the state was refused at the last draw: look again
+  DirtyThread = 1u << 26,        // another context may be current on this thread: ask EGL
   DirtyConstantSlot = 1u << 28,  // << slot: the slot's buffer has new contents
 };
 
@@ -65,6 +66,9 @@ class Context final : public backend::ContextBase {
   void EndFrame() override;
   IDevice* Device() override { return &device_; }
 
+  // For Core: another device's context was made current on the thread.
+  void LoseThread();
+
   // For the device.
   Status ReadBack(ITexture*, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch);
   Status ReadBack(IBuffer*, uint32_t offset, uint32_t size, void* out);
@@ -74,8 +78,9 @@ class Context final : public backend::ContextBase {
 
  private:
   // context_draw.cpp
-  bool PrepareDraw();
-  bool PrepareIndexedDraw();
+  bool Ready(int64_t firstVertex) const;
+  bool Prepare(int64_t firstVertex);
+  bool PrepareIndexed();
   bool ApplyGraphics();
   bool CheckGraphics();
   bool CheckInputs(const Shader& vs, const Shader* gs);
@@ -133,6 +138,7 @@ class Context final : public backend::ContextBase {
   Status MapBuffer(Buffer&, MapMode, Mapped*);
   Status MapTexture(Texture&, uint32_t subresource, MapMode, Mapped*);
   Status RefuseMap(const char* name, MsgCode, const char* why) const;
+  void UpdateElsewhere(Buffer&, const void* data, uint32_t size);
   void RefuseUpdate(const Buffer*, uint32_t size);
   void WaitForCopies(bool* touched);
   void MarkMoved(const Buffer&);
@@ -141,6 +147,7 @@ class Context final : public backend::ContextBase {
   bool CheckQuery(const Query&, bool begin);
 
   // context_frame.cpp
+  void Enter();
   void FinishAll();
   void AfterFrame();
   // At most once a frame for each code, so that a broken draw of every frame does not drown the rest.
@@ -173,6 +180,7 @@ class Context final : public backend::ContextBase {
   Ref<ISamplerState> defaultSampler_, loadSampler_;
   std::array<uint32_t, kMaxUnorderedAccess> images_{};  // uids of the bound images
 
+  uint64_t ringTakenAtReset_ = 0;
   uint32_t eventDepth_ = 0;
   std::array<Ref<Query>, kQueryTargets> activeQueries_;
   std::unordered_map<uint16_t, uint64_t> reported_;  // code -> frame

@@ -11,7 +11,7 @@ void Context::Barrier() {
 }
 
 void Context::Settle() {
-  core_.Enter();
+  Enter();
   if (dirty_ & DirtyBarrier) Barrier();
 }
 
@@ -45,7 +45,7 @@ void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
 }
 
 void Context::DispatchIndirect(IBuffer* args, uint32_t offset) {
-  core_.Enter();
+  Enter();
   const Buffer* buffer = CheckIndirect(args, offset, sizeof(DispatchArgs));
   if (!buffer || !PrepareDispatch()) return;
   gl_.UseDispatchIndirect(buffer->uid, buffer->name);

@@ -7,17 +7,41 @@ namespace rhi_gl {
 
 using namespace backend;
 
+namespace {
+
+// Constants are nearly always whole registers of 16 bytes, and few: cheaper than a call of memcpy.
+inline void CopyRegisters(std::byte* to, const void* from, uint32_t size) {
+  const auto* source = static_cast<const std::byte*>(from);
+  uint32_t at = 0;
+  for (; at + 16 <= size; at += 16) std::memcpy(to + at, source + at, 16);
+  if (at < size) [[unlikely]]
+    std::memcpy(to + at, source + at, size - at);
+}
+
+}  // namespace
+
 void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) {
   auto* buffer = static_cast<Buffer*>(target);
-  if (!buffer || !buffer->IsRingConstant() || size > buffer->Desc().byteWidth) [[unlikely]] {
+  if (!buffer || size > buffer->updateLimit) [[unlikely]]
     return RefuseUpdate(buffer, size);
-  }
-  std::byte* slice = ring_.Rename(*buffer);
+  std::byte* slice = ring_.RenameInPage(*buffer);
   if (!slice) [[unlikely]]
-    return;
+    return UpdateElsewhere(*buffer, data, size);
+  CopyRegisters(slice, data, size);
+  if (buffer->onlySlot != Buffer::kNoSlot) [[likely]] {
+    glBindBufferRange(GL_UNIFORM_BUFFER, buffer->onlySlot, buffer->name, GLintptr(buffer->offset),
+                      GLsizeiptr(buffer->range));
+  } else {
+    dirty_ |= buffer->boundSlots * DirtyConstantSlot;
+  }
+}
+
+void Context::UpdateElsewhere(Buffer& buffer, const void* data, uint32_t size) {
+  Enter();
+  std::byte* slice = ring_.Rename(buffer);
+  if (!slice) return;
   std::memcpy(slice, data, size);
-  stats_.ringBytes += size;
-  dirty_ |= buffer->boundSlots * DirtyConstantSlot;
+  dirty_ |= buffer.boundSlots * DirtyConstantSlot;
 }
 
 void Context::RefuseUpdate(const Buffer* buffer, uint32_t size) {
@@ -59,7 +83,7 @@ Status Context::MapBuffer(Buffer& b, MapMode mode, Mapped* out) {
   std::byte* data = b.data;
   if (discard) {
     data = b.IsRingConstant() ? ring_.Rename(b) : b.Rename();
-    stats_.ringBytes += b.Desc().byteWidth;
+    if (!b.IsRingConstant()) stats_.ringBytes += b.Desc().byteWidth;
     MarkMoved(b);
   }
   if (!data) return Status::OutOfMemory;

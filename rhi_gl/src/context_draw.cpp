@@ -13,8 +13,10 @@ constexpr uint32_t kGraphicsRest = DirtyLayout | DirtyTopology | DirtyVertexBuff
                                    DirtyConstants | DirtyRaster | DirtyViewports | DirtyScissors | DirtyBlend |
                                    DirtyBlendFactor | DirtyDepthStencil | DirtyStencilRef | DirtyTargets |
                                    kGraphicsStages * DirtyResources | kGraphicsStages * DirtySamplers | DirtyBarrier |
-                                   DirtyUnusable;
+                                   DirtyUnusable | DirtyThread;
 constexpr uint32_t kGraphics = kGraphicsRest | kConstantSlots;
+
+constexpr int64_t kFirstVertexLater = -2;  // an indirect draw: the GPU knows it
 
 constexpr std::array<GLenum, 9> kModes{GL_POINTS,
                                        GL_LINES,
@@ -59,18 +61,20 @@ TargetSet TargetsOf(const BoundState& state) {
 
 // ---------------------------------------------------------------------------------------------------- the short way
 
-// The usual draw differs from the one before by its constants alone.
-inline bool Context::PrepareDraw() {
-  core_.EnterFast();
-  if (const uint32_t dirty = dirty_ & kGraphics) {
-    if (dirty & kGraphicsRest) return ApplyGraphics();
-    BindConstants(dirty / DirtyConstantSlot);
-  }
+// The usual draw differs from the one before by its constants alone, which UpdateConstants has bound already.
+inline bool Context::Ready(int64_t firstVertex) const {
+  return !(dirty_ & kGraphics) && (!usesVertexId_ || firstVertex == firstVertex_);
+}
+
+// Out of line, lest the draws save registers for it.
+[[gnu::noinline]] bool Context::Prepare(int64_t firstVertex) {
+  if ((dirty_ & kGraphics) && !ApplyGraphics()) return false;
+  if (usesVertexId_ && firstVertex != kFirstVertexLater) SetFirstVertex(int32_t(firstVertex));
   return true;
 }
 
-inline bool Context::PrepareIndexedDraw() {
-  if (!PrepareDraw()) return false;
+bool Context::PrepareIndexed() {
+  if (!Ready(0) && !Prepare(0)) return false;
   if (hasIndices_) [[likely]]
     return true;
   ReportOnce(Severity::Error, MsgCode::IndexBufferMissing,
@@ -83,23 +87,22 @@ inline const void* Context::IndexPointer(uint32_t startIndex) const {
 }
 
 void Context::Draw(uint32_t vertexCount, uint32_t startVertex) {
-  if (!PrepareDraw()) return;
-  if (usesVertexId_) SetFirstVertex(int32_t(startVertex));
+  if (!Ready(startVertex)) [[unlikely]]
+    if (!Prepare(startVertex)) return;
   ++stats_.draws;
   glDrawArrays(mode_, GLint(startVertex), GLsizei(vertexCount));
 }
 
 void Context::DrawIndexed(uint32_t indexCount, uint32_t startIndex, int32_t baseVertex) {
-  if (!PrepareIndexedDraw()) return;
-  if (usesVertexId_) SetFirstVertex(0);
+  if (!PrepareIndexed()) return;
   ++stats_.draws;
   glDrawElementsBaseVertex(mode_, GLsizei(indexCount), indexType_, IndexPointer(startIndex), baseVertex);
 }
 
 void Context::DrawInstanced(uint32_t vertexCount, uint32_t instanceCount, uint32_t startVertex,
                             uint32_t startInstance) {
-  if (!PrepareDraw()) return;
-  if (usesVertexId_) SetFirstVertex(int32_t(startVertex));
+  if (!Ready(startVertex)) [[unlikely]]
+    if (!Prepare(startVertex)) return;
   ++stats_.draws;
   glDrawArraysInstancedBaseInstance(mode_, GLint(startVertex), GLsizei(vertexCount), GLsizei(instanceCount),
                                     startInstance);
@@ -107,8 +110,7 @@ void Context::DrawInstanced(uint32_t vertexCount, uint32_t instanceCount, uint32
 
 void Context::DrawIndexedInstanced(uint32_t indexCount, uint32_t instanceCount, uint32_t startIndex,
                                    int32_t baseVertex, uint32_t startInstance) {
-  if (!PrepareIndexedDraw()) return;
-  if (usesVertexId_) SetFirstVertex(0);
+  if (!PrepareIndexed()) return;
   ++stats_.draws;
   glDrawElementsInstancedBaseVertexBaseInstance(mode_, GLsizei(indexCount), indexType_, IndexPointer(startIndex),
                                                 GLsizei(instanceCount), baseVertex, startInstance);
@@ -144,7 +146,7 @@ void Context::BindFirstVertexFrom(const Buffer& args, uint32_t offset) {
 
 void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
   const Buffer* buffer = CheckIndirect(args, offset, sizeof(DrawArgs));
-  if (!buffer || !PrepareDraw()) return;
+  if (!buffer || !Prepare(kFirstVertexLater)) return;
   if (usesVertexId_) BindFirstVertexFrom(*buffer, offset + uint32_t(offsetof(DrawArgs, startVertex)));
   gl_.UseIndirect(buffer->uid, buffer->name);
   ++stats_.draws;
@@ -170,8 +172,7 @@ void Context::IndicesFromZero() {
 
 void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
   const Buffer* buffer = CheckIndirect(args, offset, sizeof(DrawIndexedArgs));
-  if (!buffer || !PrepareIndexedDraw()) return;
-  if (usesVertexId_) SetFirstVertex(0);
+  if (!buffer || !PrepareIndexed()) return;
   if (indexBase_ != 0) IndicesFromZero();
   gl_.UseIndirect(buffer->uid, buffer->name);
   ++stats_.draws;
@@ -237,6 +238,7 @@ bool Context::CheckGraphics() {
 }
 
 bool Context::ApplyGraphics() {
+  if (dirty_ & DirtyThread) Enter();
   if (dirty_ & DirtyBarrier) Barrier();
   if (!CheckGraphics()) {
     dirty_ |= DirtyUnusable;
@@ -309,8 +311,9 @@ void Context::ApplyOutput() {
   if (dirty_ & (DirtyDepthStencil | DirtyStencilRef))
     gl_.SetDepthStencil(state_.depthStencil ? state_.depthStencil->Desc() : kDepth, state_.stencilRef);
   // Without a pixel shader colours stay as they are; GL would write whatever it finds.
-  if (dirty_ & (DirtyBlend | DirtyShaders))
-    gl_.SetBlend(state_.blend ? state_.blend->Desc() : kBlend, ShaderOf(state_, Stage::Pixel) != nullptr);
+  if (dirty_ & (DirtyBlend | DirtyShaders | DirtyTargets))
+    gl_.SetBlend(state_.blend ? state_.blend->Desc() : kBlend, ShaderOf(state_, Stage::Pixel) != nullptr,
+                 state_.targetCount);
   if (dirty_ & DirtyBlendFactor) gl_.SetBlendFactor(state_.blendFactor);
   if (dirty_ & (DirtyBlendFactor | DirtyTargets)) gl_.SetSampleMask(state_.sampleMask, framebuffer_->samples);
 }

@@ -16,12 +16,14 @@ Context::Context(IDevice& device, const CorePtr& core, const DeviceDesc& desc)
       framesInFlight_(std::max(desc.framesInFlight, 1u)) {
   glCreateVertexArrays(1, &emptyArray_.name);
   emptyArray_.uid = core_.NewUid();
+  core_.context = this;
   CreateSamplerState(core, SamplerDesc{}, &defaultSampler_);
   CreateSamplerState(core, {.min = Filter::Point, .mag = Filter::Point, .mip = Filter::Point}, &loadSampler_);
 }
 
 // The other GL objects of the context end with it.
 Context::~Context() {
+  core_.context = nullptr;
   core_.Enter();
   for (const Ref<Query>& q : activeQueries_)
     if (q) q->EndGl();
@@ -40,10 +42,23 @@ void Context::ReportOnce(Severity severity, MsgCode code, const char* format, ..
   log_.Report(severity, code, "", "%s", text);
 }
 
+void Context::LoseThread() {
+  dirty_ |= DirtyThread;
+  ring_.Close();
+}
+
+void Context::Enter() {
+  core_.Enter();
+  if (!(dirty_ & DirtyThread)) return;
+  dirty_ &= ~uint32_t(DirtyThread);
+  ring_.Open();
+}
+
 void Context::AfterFrame() {
   if (ring_.Recycle()) dirty_ |= DirtyConstants;
   firstVertex_ = -1;  // its slice of the ring may be used again
   core_.Drain();
+  LoseThread();  // between frames somebody else may have used the thread
 }
 
 void Context::FinishAll() {
@@ -52,20 +67,20 @@ void Context::FinishAll() {
 }
 
 void Context::Flush() {
-  core_.Enter();
+  Enter();
   core_.Drain();
   glFlush();
 }
 
 void Context::EndFrame() {
-  core_.Enter();
+  Enter();
   if (!core_.frames.EndFrame(framesInFlight_))
     log_.Report(Severity::Error, MsgCode::DeviceLost, "", "the GPU does not finish its work; make the device anew");
   AfterFrame();
 }
 
 Status Context::WaitIdle() {
-  core_.Enter();
+  Enter();
   FinishAll();
   const bool lost = glGetGraphicsResetStatus() != GL_NO_ERROR;
   if (lost) log_.Report(Severity::Error, MsgCode::DeviceLost, "", "the GPU was reset; make the device anew");
@@ -74,7 +89,7 @@ Status Context::WaitIdle() {
 }
 
 void Context::BeginEvent(const char* name) {
-  core_.Enter();
+  Enter();
   // GL's stack holds itself as its first entry; deeper groups are counted only.
   if (++eventDepth_ >= core_.limits.maxDebugGroups) return;
   const size_t length = std::min<size_t>(std::strlen(name), core_.limits.maxDebugMessage - 1);
@@ -82,7 +97,7 @@ void Context::BeginEvent(const char* name) {
 }
 
 void Context::EndEvent() {
-  core_.Enter();
+  Enter();
   if (eventDepth_ == 0) {
     ReportOnce(Severity::Warning, MsgCode::QueryOrder, "EndEvent without a BeginEvent is ignored");
     return;
@@ -91,7 +106,7 @@ void Context::EndEvent() {
 }
 
 Status Context::Precache(const PipelineKeyDesc& key) {
-  core_.Enter();
+  Enter();
   const auto *vs = static_cast<const Shader*>(key.vs), *gs = static_cast<const Shader*>(key.gs),
              *ps = static_cast<const Shader*>(key.ps);
   const bool fit = vs && vs->stage == Stage::Vertex && (!gs || gs->stage == Stage::Geometry) &&
@@ -107,8 +122,12 @@ Status Context::Precache(const PipelineKeyDesc& key) {
 }
 
 Stats Context::GetStats(bool reset) {
-  const Stats result = stats_;
-  if (reset) stats_ = {};
+  Stats result = stats_;
+  result.ringBytes += ring_.Taken() - ringTakenAtReset_;
+  if (reset) {
+    stats_ = {};
+    ringTakenAtReset_ = ring_.Taken();
+  }
   return result;
 }
 

@@ -1,14 +1,13 @@
 #include "core.h"
 
+#include "context.h"
 #include "debug.h"
 
 namespace rhi_gl {
 namespace {
 
-uint64_t NextDeviceId() {
-  static std::atomic<uint64_t> last{0};
-  return ++last;
-}
+// The device whose context this thread has current, as far as we made it so.
+thread_local std::weak_ptr<Core> threadOwner;
 
 // A draw that takes longer than this is taken for a lost device.
 constexpr GLuint64 kFenceTimeoutNs = 60'000'000'000;
@@ -67,18 +66,16 @@ Core::Core(const DeviceDesc& desc, const Caps& adapterCaps)
       caps(adapterCaps),
       framebuffers(*this),
       programs(*this),
-      validation(desc.apiValidation),
-      id_(NextDeviceId()) {}
+      validation(desc.apiValidation) {}
 
 Core::~Core() {
   Enter();
   Drain();
-  if (currentOnThisThread_ == id_) currentOnThisThread_ = 0;
   egl.Destroy();
 }
 
 void Core::Start() {
-  currentOnThisThread_ = id_;
+  threadOwner = weak_from_this();
   if (validation) InstallDebugCallback(*this);
   glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
   glProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
@@ -92,16 +89,23 @@ void Core::Start() {
   glNamedBufferStorage(zeroBuffer, GLsizeiptr(zeros.size()), zeros.data(), 0);
 }
 
+void Core::ForgetThread() {
+  if (const CorePtr owner = threadOwner.lock(); owner && owner->context) owner->context->LoseThread();
+  threadOwner.reset();
+}
+
 void Core::Enter() {
-  if (!egl.IsCurrent() && !egl.MakeCurrent())
+  if (egl.IsCurrent()) return;
+  ForgetThread();
+  if (!egl.MakeCurrent())
     log.Report(Severity::Error, MsgCode::DeviceLost, "",
                "the GL context cannot be made current: it is still current on another thread; call WaitIdle there first");
-  currentOnThisThread_ = id_;
+  threadOwner = weak_from_this();
 }
 
 void Core::Leave() {
+  ForgetThread();
   egl.Release();
-  currentOnThisThread_ = 0;
 }
 
 void Core::DiscardSync(GLsync sync) {

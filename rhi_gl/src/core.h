@@ -20,6 +20,7 @@ class BlendState;
 class DepthStencilState;
 class RasterizerState;
 class SamplerState;
+class Context;
 
 // The kinds of GL names, for their deferred deletion.
 enum class NameKind : uint8_t { Buffer, Texture, Sampler, Framebuffer, Program, Shader, VertexArray, Query };
@@ -108,6 +109,7 @@ class Core : public std::enable_shared_from_this<Core> {
   backend::Interner<RasterizerDesc, RasterizerState> rasterizerStates;
   backend::Interner<SamplerDesc, SamplerState> samplerStates;
   GLuint zeroBuffer = 0;  // kMaxConstantBufferBytes of zeros: what is not bound reads 0
+  Context* context = nullptr;  // of the device; null before and after it
   bool validation = false;
   bool allocating = false;  // GL_OUT_OF_MEMORY is expected and reported by us
 
@@ -119,9 +121,6 @@ class Core : public std::enable_shared_from_this<Core> {
   void BeginAllocation();
   bool EndAllocation();
 
-  static inline constinit thread_local uint64_t currentOnThisThread_ = 0;
-
-  const uint64_t id_;
   uint32_t lastUid_ = 0;
   std::vector<Dead> trash_;
   std::vector<GLsync> deadSyncs_;

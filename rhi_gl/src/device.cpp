@@ -117,7 +117,7 @@ Status Device::CreateSwapChain(const SwapChainDesc&, Ref<ISwapChain>* out) {
 // Caps of whatever OpenGL a place gives; *why where it gives none. Leaves no context current.
 bool Probe(const EglPlace& place, Caps* caps, std::string* why) {
   EglContext context;
-  Core::ForgetCurrent();
+  Core::ForgetThread();
   if (!context.Create(place, {.major = 0, .minor = 0}, why)) return false;
   *caps = QueryCaps();
   caps->software = caps->software || place.software;
@@ -141,7 +141,7 @@ CorePtr TryPlace(const EglPlace& place, const DeviceDesc& desc, std::string* why
     return nullptr;
   }
   auto core = std::make_shared<Core>(desc, found);
-  Core::ForgetCurrent();
+  Core::ForgetThread();
   if (!core->egl.Create(place, {.major = 4, .minor = 5, .debug = desc.apiValidation}, why)) {
     *why = name + " has OpenGL " + std::to_string(found.apiMajor) + "." + std::to_string(found.apiMinor) +
            "; OpenGL 4.5 core is needed";

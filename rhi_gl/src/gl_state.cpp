@@ -137,8 +137,8 @@ void GlState::SetTargetBlend(uint32_t i, const RenderTargetBlend& b) {
   shadow.writeMask = mask;
 }
 
-void GlState::SetBlend(const BlendDesc& d, bool colors) {
-  for (uint32_t i = 0; i < kMaxRenderTargets; ++i) {
+void GlState::SetBlend(const BlendDesc& d, bool colors, uint32_t targets) {
+  for (uint32_t i = 0; i < targets; ++i) {
     const RenderTargetBlend& b = d.rt[d.independent ? i : 0];
     SetTargetBlend(i, b);
     SetColorMask(i, colors ? b.writeMask : 0);

@@ -80,8 +80,8 @@ class GlState {
 
   void SetRaster(const rhi::RasterizerDesc&);
   void SetDepthStencil(const rhi::DepthStencilDesc&, uint32_t stencilRef);
-  // `colors` false: no colour is written, whatever the descriptor says.
-  void SetBlend(const rhi::BlendDesc&, bool colors);
+  // `colors` false: no colour is written, whatever the descriptor says. Only the first `targets` are set.
+  void SetBlend(const rhi::BlendDesc&, bool colors, uint32_t targets);
   void SetBlendFactor(const std::array<float, 4>&);
   void SetSampleMask(uint32_t mask, uint32_t samples);
   void SetViewports(const rhi::Viewport*, uint32_t count);

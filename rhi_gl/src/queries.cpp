@@ -144,7 +144,7 @@ bool Context::CheckQuery(const Query& q, bool begin) {
 
 void Context::Begin(IQuery* query) {
   auto* q = static_cast<Query*>(query);
-  core_.Enter();
+  Enter();
   if (!q || !CheckQuery(*q, true)) return;
   q->BeginGl();
   // Held until its End: GL's query must not die while it runs.
@@ -153,7 +153,7 @@ void Context::Begin(IQuery* query) {
 
 void Context::End(IQuery* query) {
   auto* q = static_cast<Query*>(query);
-  core_.Enter();
+  Enter();
   if (!q || !CheckQuery(*q, false)) return;
   q->EndGl();
   if (q->Target() < kQueryTargets) activeQueries_[q->Target()] = nullptr;
@@ -161,7 +161,7 @@ void Context::End(IQuery* query) {
 
 Status Context::GetData(IQuery* query, void* data, uint32_t size, bool flush) {
   auto* q = static_cast<Query*>(query);
-  core_.Enter();
+  Enter();
   if (!q || q->state != Query::State::Ended) {
     log_.Report(Severity::Error, MsgCode::QueryOrder, q ? q->Name().c_str() : "", "GetData needs a query that was ended");
     return Status::InvalidArg;

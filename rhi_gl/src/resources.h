@@ -26,6 +26,8 @@ class Buffer final : public Object<IBuffer> {
   static Status Create(const CorePtr&, const BufferDesc&, const void* init, Ref<IBuffer>* out);
   ~Buffer() override;
 
+  static constexpr uint32_t kNoSlot = ~0u;
+
   Usage GetUsage() const override { return desc_.usage; }
   const BufferDesc& Desc() const override { return desc_; }
   void SetName(const char*) override;
@@ -41,7 +43,9 @@ class Buffer final : public Object<IBuffer> {
   uint32_t uid = 0, offset = 0;
   std::byte* data = nullptr;  // mapped memory of the contents, or null
   uint32_t range = 0;         // bytes to bind: byteWidth rounded up for constants
+  uint32_t updateLimit = 0;   // bytes that UpdateConstants may write: 0 unless dynamic constants
   uint32_t boundSlots = 0;    // constant registers that show this buffer, as a mask
+  uint32_t onlySlot = kNoSlot;  // the register, if it is exactly one
   uint32_t ringBytes = 0;     // what one update takes of the ring
 
   // Dynamic constants: the ring page that holds the contents, and the list of its inhabitants.

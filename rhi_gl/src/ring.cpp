@@ -70,8 +70,9 @@ bool Ring::NextPage() {
   filling_ = std::move(next);
   page_ = filling_.get();
   memory_ = page_->memory;
+  takenBefore_ += used_;
   used_ = 0;
-  size_ = pageBytes_;
+  open_ = pageBytes_;
   return true;
 }
 
@@ -82,9 +83,15 @@ void Ring::MoveIn(Buffer& buffer) {
   buffer.uid = page_->uid;
 }
 
+std::byte* Ring::Rename(Buffer& buffer) {
+  if (used_ + buffer.ringBytes > open_ && !NextPage()) return nullptr;
+  if (buffer.page != page_) MoveIn(buffer);
+  return RenameInPage(buffer);
+}
+
 Ring::Slice Ring::Take(uint32_t bytes) {
   const uint32_t size = AlignUp(bytes, core_.limits.uniformAlignment);
-  if (size > size_ - used_ && !NextPage()) return {};
+  if (used_ + size > open_ && !NextPage()) return {};
   Slice slice{page_->name, page_->uid, used_, memory_ + used_};
   used_ += size;
   return slice;

@@ -24,18 +24,21 @@ class Ring {
   Ring(const Ring&) = delete;
   Ring& operator=(const Ring&) = delete;
 
-  // Moves a dynamic constant buffer to a fresh slice and gives its memory; null (and a message): out of memory.
-  std::byte* Rename(Buffer& buffer) {
-    if (buffer.ringBytes > size_ - used_) [[unlikely]]
-      if (!NextPage()) return nullptr;
-    std::byte* slice = memory_ + used_;
-    buffer.offset = used_;
-    buffer.data = slice;
-    used_ += buffer.ringBytes;
-    if (buffer.page != page_) [[unlikely]]
-      MoveIn(buffer);
-    return slice;
+  // The hot path: a fresh slice of the page that the buffer lives in already. Null: ask Rename.
+  std::byte* RenameInPage(Buffer& buffer) {
+    const uint32_t at = used_, end = at + buffer.ringBytes;
+    if (end > open_ || buffer.page != page_) [[unlikely]]
+      return nullptr;
+    used_ = end;
+    buffer.offset = at;
+    return memory_ + at;
   }
+  // Moves a dynamic constant buffer to a fresh slice and gives its memory; null (and a message): out of memory.
+  std::byte* Rename(Buffer&);
+
+  // Closed, the ring sends the hot path to Rename, whose caller first makes the context current.
+  void Close() { open_ = 0; }
+  void Open() { open_ = page_ ? pageBytes_ : 0; }
 
   // Bytes that no buffer owns, valid for this frame.
   struct Slice {
@@ -44,6 +47,9 @@ class Ring {
     std::byte* data;  // null: out of memory
   };
   Slice Take(uint32_t bytes);
+
+  // All that was ever taken, in bytes.
+  uint64_t Taken() const { return takenBefore_ + used_; }
 
   // Gives back the pages that the GPU has finished with. True: contents of a bound buffer moved.
   bool Recycle();
@@ -57,9 +63,10 @@ class Ring {
 
   Core& core_;
   const uint32_t pageBytes_;
-  // The page being filled. No page: size_ is 0, so the first slice asks for one.
+  // The page being filled, open as far as open_.
   std::byte* memory_ = nullptr;
-  uint32_t used_ = 0, size_ = 0;
+  uint32_t used_ = 0, open_ = 0;
+  uint64_t takenBefore_ = 0;
   RingPage* page_ = nullptr;
   std::unique_ptr<RingPage> filling_;
   std::vector<std::unique_ptr<RingPage>> busy_, free_;

@@ -17,7 +17,8 @@ std::vector<std::string> DeviceExtensions(const InstanceTable& vki, VkPhysicalDe
   std::vector<VkExtensionProperties> list(count);
   vki.vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, list.data());
   std::vector<std::string> names;
-  for (const VkExtensionProperties& e : list) names.push_back(e.extensionName);
+  names.reserve(list.size());
+  for (const VkExtensionProperties& e : list) names.emplace_back(e.extensionName);
   return names;
 }
 

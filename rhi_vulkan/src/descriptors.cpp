@@ -34,6 +34,7 @@ const SetLayout* LayoutCache::Get(VkShaderStageFlags stages, std::vector<SetBind
   for (const auto& set : sets_)
     if (set->stages == stages && set->bindings == bindings) return set.get();
   std::vector<VkDescriptorSetLayoutBinding> list;
+  list.reserve(bindings.size());
   for (const SetBinding& b : bindings) list.push_back({b.binding, b.type, 1, stages, nullptr});
   VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
   info.bindingCount = uint32_t(list.size());

@@ -1,5 +1,6 @@
 #include "queries.h"
 
+#include <cmath>
 #include <cstring>
 
 namespace rhi_vulkan {
@@ -100,7 +101,7 @@ Status Query::Read(const QueryHeap& heap, void* data, uint32_t size) const {
     case QueryType::OcclusionPredicate: return Give(sums[0] != 0, data, size);
     case QueryType::TimestampDisjoint: {
       const double period = core_->adapter.caps.timestampPeriodNs;
-      return Give(TimestampDisjoint{period > 0 ? uint64_t(1e9 / period + 0.5) : 0, false}, data, size);
+      return Give(TimestampDisjoint{period > 0 ? uint64_t(std::llround(1e9 / period)) : 0, false}, data, size);
     }
     case QueryType::PipelineStatistics: {
       PipelineStatistics out{};

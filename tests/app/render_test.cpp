@@ -66,9 +66,9 @@ TEST(Render, SeveralAnimals) {
 }
 
 TEST(Render, CameraFlags) {
-  const fur::Image published = RenderBoth({"--eye", "-1,2,-3", "--target", "0,0.5,0"});
-  EXPECT_GT(DifferingPixels(published, RenderBoth({"--eye", "1,2,-3", "--target", "0,0.5,0"})), 1000u);
-  EXPECT_GT(DifferingPixels(published, RenderBoth({"--eye", "-1,2,-3", "--target", "0,0.5,0", "--fov", "40"})), 1000u);
+  const fur::Image published = RenderBoth({"--eye", "-0.8,1.2,-1.6", "--target", "0,0.5,0"});
+  EXPECT_GT(DifferingPixels(published, RenderBoth({"--eye", "0.8,1.2,-1.6", "--target", "0,0.5,0"})), 1000u);
+  EXPECT_GT(DifferingPixels(published, RenderBoth({"--eye", "-0.8,1.2,-1.6", "--target", "0,0.5,0", "--fov", "40"})), 1000u);
   const fur::Image away = RenderBoth({"--eye", "0,1,-3", "--target", "0,1,-30"}, false);
   EXPECT_EQ(away.pixels, RenderBoth({"--eye", "0,1,-4", "--target", "0,1,-30"}, false).pixels) << "an empty view";
 }

@@ -1,5 +1,6 @@
 // One picture on every backend, to the bit.
 #include <algorithm>
+#include <ostream>
 
 #include "fur/builtin.h"
 #include "models.h"
@@ -16,6 +17,9 @@ struct Combination {
 
 class Parity : public testing::TestWithParam<Combination> {};
 
+void PrintTo(const Combination& c, std::ostream* out) {
+  *out << "look " << int(c.look) << ", semantics " << int(c.semantics) << ", " << c.samples << " samples";
+}
 std::string CombinationName(const testing::TestParamInfo<Combination>& info) {
   return std::string(info.param.look == Look::Seed ? "seed" : "correct") +
          (info.param.semantics == Semantics::Sheet ? "_sheet_" : "_volume_") + std::to_string(info.param.samples);
