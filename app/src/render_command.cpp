@@ -1,6 +1,7 @@
 // fur render: a model, a camera and a technique become a PNG on one backend, or on each with their difference.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,14 @@ constexpr uint32_t kMaxShells = 512;
 constexpr uint32_t kMaxAnimals = 10000;
 const glm::dvec3 kStudioGrey{0.30, 0.32, 0.34};  // linear; an outline of fur shows on it, light and dark
 
+// CLI11's ranges let NaN through.
+const CLI::Validator kFinite(
+    [](std::string& text) {
+      char* end = nullptr;
+      return std::isfinite(std::strtod(text.c_str(), &end)) && end != text.c_str() ? std::string() : "must be a finite number, not " + text;
+    },
+    "");
+
 struct RenderFlags {
   std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "seed", look = "correct", semantics,
               stats, eye, target, adapter, furFile, furMaterial, background;
@@ -41,10 +50,12 @@ Result<glm::dvec3> ParseVector(const std::string& text, const char* flag) {
 }
 
 Result<Done> ParseSize(const std::string& text, fur::RenderSettings* s) {
-  unsigned w = 0, h = 0;
-  char rest = 0;
-  const bool ok = std::sscanf(text.c_str(), "%ux%u%c", &w, &h, &rest) == 2 && text.find('-') == std::string::npos;
-  if (!ok || w < 1 || h < 1 || w > kMaxSide || h > kMaxSide)
+  uint32_t w = 0, h = 0;
+  const char* const end = text.data() + text.size();
+  const auto [x, wError] = std::from_chars(text.data(), end, w);
+  const bool hasX = wError == std::errc() && x != end && *x == 'x';
+  const auto [rest, hError] = std::from_chars(hasX ? x + 1 : end, end, h);
+  if (hError != std::errc() || rest != end || w < 1 || h < 1 || w > kMaxSide || h > kMaxSide)
     return Error{ErrorCode::Usage, fmt::format("--size takes WxH with sides of 1..{}, not '{}'", kMaxSide, text)};
   s->width = w;
   s->height = h;
@@ -136,7 +147,12 @@ std::filesystem::path WithBackend(const std::filesystem::path& file, const std::
   return named.replace_extension(backend + file.extension().string());
 }
 
-// Says before the work whether the folder of an output can be written to at all.
+std::filesystem::path Partial(const std::filesystem::path& file) {
+  std::filesystem::path partial = file;
+  return partial += ".partial";
+}
+
+// Says before the work whether an output can be written at all.
 Result<Done> CheckOutput(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code ec;
@@ -144,13 +160,15 @@ Result<Done> CheckOutput(const std::filesystem::path& file) {
     return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}: {} is not a folder", file.string(), folder.string())};
   if (std::filesystem::is_directory(file, ec))
     return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}: it is a folder", file.string())};
-  return Done{};
+  const bool writable = std::ofstream(Partial(file)).is_open();
+  std::filesystem::remove(Partial(file), ec);
+  if (writable) return Done{};
+  return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}: no file can be made in {}", file.string(), folder.string())};
 }
 
 // Whole or not at all, as WritePng.
 Result<Done> WriteText(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::path partial = file;
-  partial += ".partial";
+  const std::filesystem::path partial = Partial(file);
   std::error_code ec;
   bool ok = false;
   {
@@ -256,16 +274,16 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--shells", f->shells, "Number of shells, 1..512; default: as the coat says")->check(CLI::Range(1u, kMaxShells));
   c->add_option("--eye", f->eye, "Eye, X,Y,Z; without --eye and --target the camera frames the animals");
   c->add_option("--target", f->target, "Point looked at, X,Y,Z");
-  c->add_option("--fov", f->fov, "Vertical field of view in degrees; default 65, or 40 when framing")->check(CLI::Range(0.1, 179.0));
-  c->add_option("--near", f->zNear, "Near plane")->check(CLI::PositiveNumber);
-  c->add_option("--far", f->zFar, "Far plane")->check(CLI::PositiveNumber);
+  c->add_option("--fov", f->fov, "Vertical field of view in degrees; default 65, or 40 when framing")->check(kFinite)->check(CLI::Range(0.1, 179.0));
+  c->add_option("--near", f->zNear, "Near plane")->check(kFinite)->check(CLI::PositiveNumber);
+  c->add_option("--far", f->zFar, "Far plane")->check(kFinite)->check(CLI::PositiveNumber);
   c->add_option("--count", f->count, "Number of animals")->check(CLI::Range(1u, kMaxAnimals))->capture_default_str();
   c->add_option("--repeat", f->repeat, "Timed frames after the first")->check(CLI::Range(0u, 100000u))->capture_default_str();
   c->add_option("--stats", f->stats, "JSON file for times and counts");
   c->add_option("--fur", f->furFile, "JSON file of fur parameters (docs/fur.md)");
   c->add_option("--fur-material", f->furMaterial, "Grow fur on the material of this name only");
-  c->add_option("--fur-length", f->furLength, "Fur length in the model's units")->check(CLI::PositiveNumber);
-  c->add_option("--uv-scale", f->uvScale, "Tiles of the fur volume across the UV square")->check(CLI::PositiveNumber);
+  c->add_option("--fur-length", f->furLength, "Fur length in the model's units")->check(kFinite)->check(CLI::PositiveNumber);
+  c->add_option("--uv-scale", f->uvScale, "Tiles of the fur volume across the UV square")->check(kFinite)->check(CLI::PositiveNumber);
   c->add_option("--background", f->background, "Background, R,G,B in 0..1: linear, default a grey, for look correct; raw, default black, for look seed");
   c->add_flag("--no-fins", f->noFins, "Draw no fins");
   c->add_flag("--no-shells", f->noShells, "Draw no shells");

@@ -25,7 +25,6 @@ Texture* AsTexture(IResource* r) { return r && typeid(*r) == typeid(Texture) ? s
 Buffer::Buffer(const CorePtr& core, const BufferDesc& desc) : core_(core), desc_(desc) {
   const bool constant = desc.bind & Bind::ConstantBuffer;
   ringConstant_ = constant && desc.usage == Usage::Dynamic;
-  updateLimit = ringConstant_ ? desc.byteWidth : 0;
   range = constant ? AlignUp(desc.byteWidth, 16) : desc.byteWidth;
   ringBytes = AlignUp(range, core->limits.uniformAlignment);
 }

@@ -80,6 +80,7 @@ class Context final : public backend::ContextBase {
   // context_draw.cpp
   bool Ready(int64_t firstVertex) const;
   bool Prepare(int64_t firstVertex);
+  void PrepareAndDraw(uint32_t vertexCount, uint32_t startVertex);
   bool PrepareIndexed();
   bool ApplyGraphics();
   bool CheckGraphics();
@@ -138,7 +139,7 @@ class Context final : public backend::ContextBase {
   Status MapBuffer(Buffer&, MapMode, Mapped*);
   Status MapTexture(Texture&, uint32_t subresource, MapMode, Mapped*);
   Status RefuseMap(const char* name, MsgCode, const char* why) const;
-  void UpdateElsewhere(Buffer&, const void* data, uint32_t size);
+  void UpdateElsewhere(Buffer*, const void* data, uint32_t size);
   void RefuseUpdate(const Buffer*, uint32_t size);
   void WaitForCopies(bool* touched);
   void MarkMoved(const Buffer&);

@@ -39,17 +39,14 @@ void Context::SetConstantBuffers(uint32_t first, uint32_t count, IBuffer* const*
   UnmarkConstants();
   ContextBase::SetConstantBuffers(first, count, buffers);
   for (uint32_t i = 0; i < kMaxConstantBuffers; ++i)
-    if (auto* b = static_cast<Buffer*>(state_.constants[i].get())) {
-      b->onlySlot = b->boundSlots == 0 ? i : Buffer::kNoSlot;
-      b->boundSlots |= 1u << i;
-    }
+    if (auto* b = static_cast<Buffer*>(state_.constants[i].get())) b->boundSlots |= 1u << i;
 }
 
 void Context::UnmarkConstants() {
   for (const Ref<IBuffer>& bound : state_.constants)
     if (auto* b = static_cast<Buffer*>(bound.get())) {
       b->boundSlots = 0;
-      b->onlySlot = Buffer::kNoSlot;
+      b->quickSize = Buffer::kNoQuickSize;
     }
 }
 

@@ -1,4 +1,5 @@
 // Data from the CPU: Map, constants; and back: ReadBack.
+#include <bit>
 #include <cstring>
 
 #include "context.h"
@@ -9,39 +10,36 @@ using namespace backend;
 
 namespace {
 
-// Constants are nearly always whole registers of 16 bytes, and few: cheaper than a call of memcpy.
+// `size` is some registers. Cheaper than memcpy for as few as constants are.
 inline void CopyRegisters(std::byte* to, const void* from, uint32_t size) {
   const auto* source = static_cast<const std::byte*>(from);
-  uint32_t at = 0;
-  for (; at + 16 <= size; at += 16) std::memcpy(to + at, source + at, 16);
-  if (at < size) [[unlikely]]
-    std::memcpy(to + at, source + at, size - at);
+  const std::byte* const end = to + size;
+  for (; to != end; to += kRegisterBytes, source += kRegisterBytes) std::memcpy(to, source, kRegisterBytes);
 }
 
 }  // namespace
 
+// The hottest call of all: its conditions are few, and its ways out are tail calls, so that it saves no registers.
 void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) {
   auto* buffer = static_cast<Buffer*>(target);
-  if (!buffer || size > buffer->updateLimit) [[unlikely]]
-    return RefuseUpdate(buffer, size);
-  std::byte* slice = ring_.RenameInPage(*buffer);
-  if (!slice) [[unlikely]]
-    return UpdateElsewhere(*buffer, data, size);
-  CopyRegisters(slice, data, size);
-  if (buffer->onlySlot != Buffer::kNoSlot) [[likely]] {
-    glBindBufferRange(GL_UNIFORM_BUFFER, buffer->onlySlot, buffer->name, GLintptr(buffer->offset),
-                      GLsizeiptr(buffer->range));
-  } else {
-    dirty_ |= buffer->boundSlots * DirtyConstantSlot;
-  }
+  if (!buffer || size != buffer->quickSize || !ring_.IsAtHand(*buffer)) [[unlikely]]
+    return UpdateElsewhere(buffer, data, size);
+  CopyRegisters(ring_.Advance(*buffer), data, size);
+  glBindBufferRange(GL_UNIFORM_BUFFER, buffer->quickSlot, buffer->name, GLintptr(buffer->offset),
+                    GLsizeiptr(buffer->range));
 }
 
-void Context::UpdateElsewhere(Buffer& buffer, const void* data, uint32_t size) {
+// Whatever is not as it was at the last update: the size, the page, the current context; and mistakes.
+void Context::UpdateElsewhere(Buffer* buffer, const void* data, uint32_t size) {
+  if (!buffer || !buffer->IsRingConstant() || size > buffer->Desc().byteWidth) return RefuseUpdate(buffer, size);
   Enter();
-  std::byte* slice = ring_.Rename(buffer);
+  std::byte* slice = ring_.Rename(*buffer);
   if (!slice) return;
   std::memcpy(slice, data, size);
-  dirty_ |= buffer.boundSlots * DirtyConstantSlot;
+  dirty_ |= buffer->boundSlots * DirtyConstantSlot;
+  if (size == 0 || size % kRegisterBytes != 0 || !std::has_single_bit(buffer->boundSlots)) return;
+  buffer->quickSize = size;
+  buffer->quickSlot = uint32_t(std::countr_zero(buffer->boundSlots));
 }
 
 void Context::RefuseUpdate(const Buffer* buffer, uint32_t size) {

@@ -66,8 +66,7 @@ inline bool Context::Ready(int64_t firstVertex) const {
   return !(dirty_ & kGraphics) && (!usesVertexId_ || firstVertex == firstVertex_);
 }
 
-// Out of line, lest the draws save registers for it.
-[[gnu::noinline]] bool Context::Prepare(int64_t firstVertex) {
+bool Context::Prepare(int64_t firstVertex) {
   if ((dirty_ & kGraphics) && !ApplyGraphics()) return false;
   if (usesVertexId_ && firstVertex != kFirstVertexLater) SetFirstVertex(int32_t(firstVertex));
   return true;
@@ -88,7 +87,13 @@ inline const void* Context::IndexPointer(uint32_t startIndex) const {
 
 void Context::Draw(uint32_t vertexCount, uint32_t startVertex) {
   if (!Ready(startVertex)) [[unlikely]]
-    if (!Prepare(startVertex)) return;
+    return PrepareAndDraw(vertexCount, startVertex);  // a tail call: the usual way saves no registers
+  ++stats_.draws;
+  glDrawArrays(mode_, GLint(startVertex), GLsizei(vertexCount));
+}
+
+void Context::PrepareAndDraw(uint32_t vertexCount, uint32_t startVertex) {
+  if (!Prepare(startVertex)) return;
   ++stats_.draws;
   glDrawArrays(mode_, GLint(startVertex), GLsizei(vertexCount));
 }

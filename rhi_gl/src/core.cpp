@@ -77,7 +77,7 @@ Core::~Core() {
 void Core::Start() {
   threadOwner = weak_from_this();
   if (validation) InstallDebugCallback(*this);
-  glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // the shaders turn the picture over: rhi/shader.h
   glProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
   glEnable(GL_FRAMEBUFFER_SRGB);
   glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);

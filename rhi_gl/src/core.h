@@ -61,18 +61,13 @@ class Core : public std::enable_shared_from_this<Core> {
   // Takes the context, current, and sets what never changes.
   void Start();
 
-  // Makes the context current on this thread, whoever else made his own current meanwhile.
+  // Makes the context current on this thread, whoever else made his own current meanwhile. The device that was current
+  // here learns it by Context::LoseThread, so that its draws need not ask each time.
   void Enter();
-  // The same for the hot path: trusts that only devices of this library change the current context.
-  void EnterFast() {
-    if (currentOnThisThread_ != id_) [[unlikely]]
-      Enter();
-  }
   // Gives the thread's context up, so that another thread may use the device.
   void Leave();
-
-  // Somebody else's context was made current on this thread.
-  static void ForgetCurrent() { currentOnThisThread_ = 0; }
+  // A context of nobody's is about to be made current on this thread.
+  static void ForgetThread();
 
   // Numbers are never used twice, unlike GL's names: the shadow of the state compares numbers.
   uint32_t NewUid() { return ++lastUid_; }

@@ -70,7 +70,7 @@ void GlState::SetRaster(const RasterizerDesc& d) {
     glCullFace(d.cull == CullMode::Front ? GL_FRONT : GL_BACK);
     raster_.cull = d.cull;
   }
-  if (d.frontCCW != raster_.frontCCW) glFrontFace(d.frontCCW ? GL_CCW : GL_CW);
+  if (d.frontCCW != raster_.frontCCW) glFrontFace(d.frontCCW ? GL_CW : GL_CCW);  // y is turned over
   raster_.frontCCW = d.frontCCW;
   SetDepthBias(d);
   Set(DepthClamp, !d.depthClip);

@@ -114,7 +114,7 @@ class GlState {
   };
   std::array<Range, kStorageBlocks> storage_;
 
-  rhi::RasterizerDesc raster_{.cull = rhi::CullMode::Back, .frontCCW = true};  // GL's own defaults
+  rhi::RasterizerDesc raster_{.cull = rhi::CullMode::Back, .frontCCW = false};  // GL's own; y is turned over
   rhi::DepthStencilDesc depth_{.depthEnable = false};
   uint32_t stencilRef_ = 0, stencilRead_ = 0xFF, stencilWrite_ = 0xFF;
   std::array<rhi::RenderTargetBlend, rhi::kMaxRenderTargets> blend_{};

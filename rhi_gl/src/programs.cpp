@@ -19,9 +19,15 @@ GLenum StageEnum(Stage stage) {
   return GL_VERTEX_SHADER;
 }
 
-GLuint CompileShader(Stage stage, const char* glsl, std::string* log) {
+// The macro of the last stage goes behind the #version line, which must be the first.
+GLuint CompileShader(Stage stage, const char* glsl, bool lastStage, std::string* log) {
   const GLuint name = glCreateShader(StageEnum(stage));
-  glShaderSource(name, 1, &glsl, nullptr);
+  const std::string text(glsl);
+  const size_t body = text.find('\n') + 1;
+  const std::string source =
+      lastStage ? text.substr(0, body) + "#define " + rhi::kGlLastStageMacro + "\n" + text.substr(body) : text;
+  const char* const begin = source.c_str();
+  glShaderSource(name, 1, &begin, nullptr);
   glCompileShader(name);
   GLint compiled = GL_FALSE, length = 0;
   glGetShaderiv(name, GL_COMPILE_STATUS, &compiled);
@@ -52,11 +58,11 @@ GLuint LinkProgram(std::initializer_list<GLuint> shaders, std::string* log) {
   return 0;
 }
 
-const ShaderCode* ProgramCache::Compile(Stage stage, const char* glsl, std::string* log) {
-  const std::string key = char('0' + int(stage)) + std::string(glsl);
+const ShaderCode* ProgramCache::Compile(Stage stage, const char* glsl, bool lastStage, std::string* log) {
+  const std::string key = char('0' + int(stage) * 2 + lastStage) + std::string(glsl);
   if (const auto found = codes_.find(key); found != codes_.end()) return &found->second;
   ShaderCode code;
-  code.shader = CompileShader(stage, glsl, log);
+  code.shader = CompileShader(stage, glsl, lastStage, log);
   if (code.shader == 0) return nullptr;
   if (stage == Stage::Compute && (code.computeProgram = LinkProgram({code.shader}, log)) == 0) {
     glDeleteShader(code.shader);
@@ -78,7 +84,8 @@ Program ProgramCache::Make(const Shader* vs, const Shader* gs, const Shader* ps)
   Program p;
   p.uid = core_.NewUid();
   p.usesVertexId = vs->reflection.usesVertexId;
-  p.name = LinkProgram({vs->code->shader, gs ? gs->code->shader : 0, ps ? ps->code->shader : 0}, &why);
+  const ShaderCode* vertexCode = gs ? Compile(Stage::Vertex, vs->glsl, false, &why) : vs->code;
+  p.name = LinkProgram({vertexCode ? vertexCode->shader : 0, gs ? gs->code->shader : 0, ps ? ps->code->shader : 0}, &why);
   if (p.name == 0)
     core_.log.Report(Severity::Error, MsgCode::ShaderRejected, vs->Name().c_str(),
                      "the driver cannot link %s, %s and %s: %s", vs->Name().c_str(), gs ? gs->Name().c_str() : "no GS",

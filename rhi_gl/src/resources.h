@@ -11,6 +11,8 @@ using backend::Object;
 
 struct RingPage;
 
+inline constexpr uint32_t kRegisterBytes = 16;  // one float4 of a constant buffer
+
 // One of the memories that a dynamic buffer takes turns in.
 struct Version {
   GLuint name = 0;
@@ -26,7 +28,7 @@ class Buffer final : public Object<IBuffer> {
   static Status Create(const CorePtr&, const BufferDesc&, const void* init, Ref<IBuffer>* out);
   ~Buffer() override;
 
-  static constexpr uint32_t kNoSlot = ~0u;
+  static constexpr uint32_t kNoQuickSize = ~0u;
 
   Usage GetUsage() const override { return desc_.usage; }
   const BufferDesc& Desc() const override { return desc_; }
@@ -43,14 +45,18 @@ class Buffer final : public Object<IBuffer> {
   uint32_t uid = 0, offset = 0;
   std::byte* data = nullptr;  // mapped memory of the contents, or null
   uint32_t range = 0;         // bytes to bind: byteWidth rounded up for constants
-  uint32_t updateLimit = 0;   // bytes that UpdateConstants may write: 0 unless dynamic constants
   uint32_t boundSlots = 0;    // constant registers that show this buffer, as a mask
-  uint32_t onlySlot = kNoSlot;  // the register, if it is exactly one
   uint32_t ringBytes = 0;     // what one update takes of the ring
 
   // Dynamic constants: the ring page that holds the contents, and the list of its inhabitants.
   RingPage* page = nullptr;
+  std::byte* pageMemory = nullptr;
+  uint64_t lastSlice = 0;  // the offset of the last slice that fits into a page
   Buffer *previousInPage = nullptr, *nextInPage = nullptr;
+
+  // The size that UpdateConstants serves in the short way, and the one register that shows the buffer: those of the last
+  // update. kNoQuickSize where there is no such register.
+  uint32_t quickSize = kNoQuickSize, quickSlot = 0;
 
   bool mapped = false;
   bool gpuTouched = false;  // staging: copies were recorded that a Map must wait for

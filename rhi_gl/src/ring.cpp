@@ -18,6 +18,7 @@ void RingPage::Leave(Buffer& buffer) {
   }
   if (buffer.nextInPage) buffer.nextInPage->previousInPage = buffer.previousInPage;
   buffer.page = nullptr;
+  buffer.pageMemory = nullptr;
 }
 
 Ring::Ring(Core& core, uint32_t pageBytes)
@@ -67,33 +68,42 @@ bool Ring::NextPage() {
     filling_->lastFrame = core_.frames.Current();
     busy_.push_back(std::move(filling_));
   }
+  takenBefore_ = Taken();
   filling_ = std::move(next);
-  page_ = filling_.get();
-  memory_ = page_->memory;
-  takenBefore_ += used_;
-  used_ = 0;
-  open_ = pageBytes_;
+  cursor_ = filling_->memory;
   return true;
+}
+
+uint64_t Ring::Taken() const {
+  const std::byte* end = cursor_ ? cursor_ : closedAt_;
+  return takenBefore_ + (filling_ ? uint64_t(end - filling_->memory) : 0);
+}
+
+bool Ring::MakeRoom(uint32_t bytes) {
+  if (cursor_ && uint64_t(cursor_ - filling_->memory) + bytes <= pageBytes_) return true;
+  return NextPage();
 }
 
 void Ring::MoveIn(Buffer& buffer) {
   if (buffer.page) RingPage::Leave(buffer);
-  page_->Enter(buffer);
-  buffer.name = page_->name;
-  buffer.uid = page_->uid;
+  filling_->Enter(buffer);
+  buffer.name = filling_->name;
+  buffer.uid = filling_->uid;
+  buffer.pageMemory = filling_->memory;
+  buffer.lastSlice = pageBytes_ - buffer.ringBytes;
 }
 
 std::byte* Ring::Rename(Buffer& buffer) {
-  if (used_ + buffer.ringBytes > open_ && !NextPage()) return nullptr;
-  if (buffer.page != page_) MoveIn(buffer);
-  return RenameInPage(buffer);
+  if (!MakeRoom(buffer.ringBytes)) return nullptr;
+  if (buffer.page != filling_.get()) MoveIn(buffer);
+  return Advance(buffer);
 }
 
 Ring::Slice Ring::Take(uint32_t bytes) {
   const uint32_t size = AlignUp(bytes, core_.limits.uniformAlignment);
-  if (used_ + size > open_ && !NextPage()) return {};
-  Slice slice{page_->name, page_->uid, used_, memory_ + used_};
-  used_ += size;
+  if (!MakeRoom(size)) return {};
+  const Slice slice{filling_->name, filling_->uid, uint32_t(cursor_ - filling_->memory), cursor_};
+  cursor_ += size;
   return slice;
 }
 

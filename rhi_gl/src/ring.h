@@ -24,21 +24,28 @@ class Ring {
   Ring(const Ring&) = delete;
   Ring& operator=(const Ring&) = delete;
 
-  // The hot path: a fresh slice of the page that the buffer lives in already. Null: ask Rename.
-  std::byte* RenameInPage(Buffer& buffer) {
-    const uint32_t at = used_, end = at + buffer.ringBytes;
-    if (end > open_ || buffer.page != page_) [[unlikely]]
-      return nullptr;
-    used_ = end;
-    buffer.offset = at;
-    return memory_ + at;
+  // The hot path: whether Advance may serve the buffer. One comparison tells that the buffer lives in the page being
+  // filled, that a slice fits there, and that the ring is open: any other page, or none, is out of reach.
+  bool IsAtHand(const Buffer& buffer) const {
+    return uintptr_t(cursor_) - uintptr_t(buffer.pageMemory) <= buffer.lastSlice;
+  }
+  // Moves the buffer to the next slice of the page that it lives in already.
+  std::byte* Advance(Buffer& buffer) {
+    std::byte* slice = cursor_;
+    buffer.offset = uint32_t(uintptr_t(slice) - uintptr_t(buffer.pageMemory));
+    cursor_ = slice + buffer.ringBytes;
+    return slice;
   }
   // Moves a dynamic constant buffer to a fresh slice and gives its memory; null (and a message): out of memory.
   std::byte* Rename(Buffer&);
 
-  // Closed, the ring sends the hot path to Rename, whose caller first makes the context current.
-  void Close() { open_ = 0; }
-  void Open() { open_ = page_ ? pageBytes_ : 0; }
+  // Closed, nothing is at hand, and who asks for Rename first makes the context current and opens the ring.
+  void Close() {
+    if (cursor_) closedAt_ = std::exchange(cursor_, nullptr);
+  }
+  void Open() {
+    if (!cursor_) cursor_ = closedAt_;
+  }
 
   // Bytes that no buffer owns, valid for this frame.
   struct Slice {
@@ -49,12 +56,13 @@ class Ring {
   Slice Take(uint32_t bytes);
 
   // All that was ever taken, in bytes.
-  uint64_t Taken() const { return takenBefore_ + used_; }
+  uint64_t Taken() const;
 
   // Gives back the pages that the GPU has finished with. True: contents of a bound buffer moved.
   bool Recycle();
 
  private:
+  bool MakeRoom(uint32_t bytes);
   bool NextPage();
   std::unique_ptr<RingPage> MakePage();
   void MoveIn(Buffer&);
@@ -63,11 +71,9 @@ class Ring {
 
   Core& core_;
   const uint32_t pageBytes_;
-  // The page being filled, open as far as open_.
-  std::byte* memory_ = nullptr;
-  uint32_t used_ = 0, open_ = 0;
-  uint64_t takenBefore_ = 0;
-  RingPage* page_ = nullptr;
+  std::byte* cursor_ = nullptr;    // where the next slice begins; null: no page yet, or closed
+  std::byte* closedAt_ = nullptr;  // where to go on
+  uint64_t takenBefore_ = 0;       // from the pages before
   std::unique_ptr<RingPage> filling_;
   std::vector<std::unique_ptr<RingPage>> busy_, free_;
 };

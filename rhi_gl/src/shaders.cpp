@@ -36,7 +36,7 @@ Status Shader::Create(const CorePtr& core, const ShaderBlob& blob, Ref<IShader>*
     return Reject(*core, blob.name, "its tables break the contract of rhi/shader.h",
                   "more pairs or structured buffers than GL has places for, or a pair without its texture");
   std::string why;
-  shader->code = core->programs.Compile(blob.stage, blob.glsl, &why);
+  shader->code = core->programs.Compile(blob.stage, blob.glsl, blob.stage == Stage::Vertex, &why);
   if (!shader->code) return Reject(*core, blob.name, "the driver cannot compile or link it", why.c_str());
   core->Label(GL_SHADER, shader->code->shader, blob.name);
   *out = shader;

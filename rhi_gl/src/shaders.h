@@ -14,6 +14,7 @@ class Shader final : public Object<IShader> {
 
   const ShaderCode* code = nullptr;
   Stage stage;
+  const char* glsl;  // the blob's text, which has static lifetime
   ShaderReflection reflection;
   uint32_t inputMask = 0;                    // vertex: attribute locations
   std::vector<const ShaderResource*> pairs;  // the texture of each of reflection.pairs
@@ -21,7 +22,7 @@ class Shader final : public Object<IShader> {
   std::vector<const ShaderResource*> writable;  // u registers
 
  private:
-  Shader(const CorePtr& core, const ShaderBlob& blob) : stage(blob.stage), reflection(blob.reflection), core_(core) {}
+  Shader(const CorePtr& core, const ShaderBlob& blob) : stage(blob.stage), glsl(blob.glsl), reflection(blob.reflection), core_(core) {}
   bool SortResources();
 
   CorePtr core_;

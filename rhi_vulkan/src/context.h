@@ -117,7 +117,9 @@ class Context final : public backend::ContextBase {
   void RecycleBatches();
   VkCommandBuffer Setup();
   void Report(Severity, MsgCode, const char* object, const char* text);  // once for each code and frame
-  Status WaitForSerial(uint64_t serial);                                 // submits first if need be
+  void OpenEvent(const std::string& name);
+  void CloseEvent();
+  Status WaitForSerial(uint64_t serial);  // submits first if need be
 
   // context_pass.cpp
   void Use(Texture&, const SubresourceRange&, const Access&);
@@ -241,7 +243,8 @@ class Context final : public backend::ContextBase {
   NullResources null_;
   VkPipelineStageFlags2 constantStages_ = 0;
   std::vector<MsgCode> reported_;
-  uint64_t pipelinesBefore_ = 0;  // PipelineCache::made at the last reset of the statistics
+  std::vector<std::string> events_;  // begun and not ended
+  uint64_t pipelinesBefore_ = 0;     // PipelineCache::made at the last reset of the statistics
 
   std::array<std::vector<Ref<Query>>, 2> active_;  // [SegmentKind]: queries begun and not ended
   std::array<std::shared_ptr<QuerySegment>, 2> running_;

@@ -141,21 +141,27 @@ bool Context::CheckGeometryInput(const Shader* gs) {
   return false;
 }
 
+// Looks again only at what may have changed: what was in order stays so until work outside of the pass.
 void Context::UseInputs() {
-  for (const Stage stage : {Stage::Vertex, Stage::Geometry, Stage::Pixel})
-    UseStageInputs(stage, static_cast<const Shader*>(state_.shaders[size_t(stage)].get()));
-  if (const auto* layout = static_cast<const InputLayout*>(state_.layout.get()))
-    for (uint32_t slot = 0; slot < kMaxVertexBuffers; ++slot)
+  const uint32_t dirty = dirty_ & kDirtyPass ? ~0u : dirty_;
+  for (uint32_t i = 0; i < 3; ++i)
+    if (dirty & (backend::DirtyShaders | backend::DirtyResources << i))
+      UseStageInputs(Stage(i), static_cast<const Shader*>(state_.shaders[i].get()));
+  const auto* layout = static_cast<const InputLayout*>(state_.layout.get());
+  if (layout && (dirty & (backend::DirtyVertexBuffers | backend::DirtyLayout)))
+    for (uint32_t slot = 0; layout->slotMask >> slot; ++slot)
       if (auto* buffer = static_cast<Buffer*>(state_.vertexBuffers[slot].buffer.get());
           buffer && (layout->slotMask >> slot & 1u))
         Use(*buffer, kVertexRead);
-  if (state_.indexBuffer) Use(static_cast<Buffer&>(*state_.indexBuffer), kIndexRead);
+  if (state_.indexBuffer && (dirty & backend::DirtyIndexBuffer))
+    Use(static_cast<Buffer&>(*state_.indexBuffer), kIndexRead);
+  if (!(dirty & backend::DirtyConstants)) return;
   for (const Ref<IBuffer>& constants : state_.constants)
     if (constants) Use(static_cast<Buffer&>(*constants), UniformRead(constantStages_));
 }
 
 void Context::UseStageInputs(Stage stage, const Shader* shader) {
-  if (!shader) return;
+  if (!shader || !shader->reflection.resources.size) return;
   for (const ShaderResource& r : shader->reflection.resources) {
     auto* view = static_cast<ShaderView*>(state_.resources[size_t(stage)][r.slot].get());
     if (!view) continue;

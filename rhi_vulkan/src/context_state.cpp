@@ -63,7 +63,9 @@ void Context::ApplyViewports() {
   std::array<VkViewport, kMaxViewports> list;
   for (uint32_t i = 0; i < state_.viewportCount; ++i) {
     const Viewport& v = state_.viewports[i];
-    list[i] = {v.x, v.y + v.height, v.width, -v.height, v.minDepth, v.maxDepth};
+    const float width = std::max(v.width, 1.0f);  // Vulkan wants more than 0; ApplyScissors lets nothing through
+    list[i] = {
+        v.x, v.y + v.height, width, -v.height, std::clamp(v.minDepth, 0.0f, 1.0f), std::clamp(v.maxDepth, 0.0f, 1.0f)};
   }
   vk_.vkCmdSetViewportWithCount(cmd_, state_.viewportCount, list.data());
 }
@@ -74,7 +76,9 @@ void Context::ApplyScissors() {
   for (uint32_t i = 0; i < state_.viewportCount; ++i) {
     // A rectangle that was never set is empty, as in Direct3D 10.
     const Rect rect = i < state_.scissorCount ? state_.scissors[i] : Rect{0, 0, 0, 0};
+    const bool empty = !(state_.viewports[i].width > 0 && state_.viewports[i].height > 0);
     list[i] = enabled ? ToVk(rect) : VkRect2D{{0, 0}, {kNoScissor, kNoScissor}};
+    if (empty) list[i].extent = {0, 0};
   }
   vk_.vkCmdSetScissorWithCount(cmd_, state_.viewportCount, list.data());
 }

@@ -90,6 +90,7 @@ Status Context::BeginBatch() {
   boundLayouts_ = {};
   boundSets_ = {};
   constantSet_ = VK_NULL_HANDLE;
+  for (const std::string& event : events_) OpenEvent(event);
   return Status::Ok;
 }
 
@@ -114,6 +115,9 @@ void Context::Flush() {
   EndPass(false);
   FlushClears(nullptr);
   RecordBarriers();
+  // Events that are open go on in the next command buffer. The API would let one end a label of the last one there, but
+  // Mesa 22.3 then crashes.
+  for (size_t i = 0; i < events_.size(); ++i) CloseEvent();
   std::array<VkCommandBuffer, 2> commands{};
   uint32_t count = 0;
   if (batch_->setupBegun) commands[count++] = batch_->setup;
@@ -163,13 +167,24 @@ Stats Context::TakeStats(bool reset) {
 IDevice* Context::Device() { return &device_; }
 
 void Context::BeginEvent(const char* name) {
-  if (!core_->instance.vk.vkCmdBeginDebugUtilsLabelEXT) return;
-  VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
-  label.pLabelName = name ? name : "";
-  core_->instance.vk.vkCmdBeginDebugUtilsLabelEXT(cmd_, &label);
+  events_.emplace_back(name ? name : "");
+  OpenEvent(events_.back());
 }
 
 void Context::EndEvent() {
+  if (events_.empty()) return;
+  events_.pop_back();
+  CloseEvent();
+}
+
+void Context::OpenEvent(const std::string& name) {
+  if (!core_->instance.vk.vkCmdBeginDebugUtilsLabelEXT) return;
+  VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+  label.pLabelName = name.c_str();
+  core_->instance.vk.vkCmdBeginDebugUtilsLabelEXT(cmd_, &label);
+}
+
+void Context::CloseEvent() {
   if (core_->instance.vk.vkCmdEndDebugUtilsLabelEXT) core_->instance.vk.vkCmdEndDebugUtilsLabelEXT(cmd_);
 }
 

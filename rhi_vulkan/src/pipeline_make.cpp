@@ -67,11 +67,11 @@ VkPipelineColorBlendAttachmentState ToVk(const RenderTargetBlend& t, bool blenda
 struct Stages {
   std::array<VkPipelineShaderStageCreateInfo, 3> infos{};
   uint32_t count = 0;
-  void Add(const Shader* shader, VkShaderStageFlagBits stage) {
+  void Add(const Shader* shader, VkShaderStageFlagBits stage, VkShaderModule module) {
     if (!shader) return;
     infos[count] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
     infos[count].stage = stage;
-    infos[count].module = shader->module;
+    infos[count].module = module;
     infos[count++].pName = "main";
   }
 };
@@ -190,9 +190,12 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   if (!out.layout) return out;
 
   Stages stages;
-  stages.Add(parts.vs, VK_SHADER_STAGE_VERTEX_BIT);
-  stages.Add(parts.gs, VK_SHADER_STAGE_GEOMETRY_BIT);
-  stages.Add(parts.ps, VK_SHADER_STAGE_FRAGMENT_BIT);
+  const auto moduleOf = [](const Shader* shader) { return shader ? shader->module : VkShaderModule(VK_NULL_HANDLE); };
+  const bool points = key.topology == TopologyClass::Point && !parts.gs;
+  stages.Add(parts.vs, VK_SHADER_STAGE_VERTEX_BIT, points ? parts.vs->PointModule() : parts.vs->module);
+  stages.Add(parts.gs, VK_SHADER_STAGE_GEOMETRY_BIT, moduleOf(parts.gs));
+  stages.Add(parts.ps, VK_SHADER_STAGE_FRAGMENT_BIT, moduleOf(parts.ps));
+  if (!stages.infos[0].module) return out;
   const BlendDesc blendDesc = parts.blend ? *parts.blend : BlendDesc{};
   const VertexInput vertexInput(parts.layout);
   const RasterInfo raster(key, core_.adapter.features, blendDesc.alphaToCoverage);

@@ -1,12 +1,10 @@
 #include "descriptors.h"
 #include "pipeline.h"
+#include "spirv.h"
 #include "states.h"
 
 namespace rhi_vulkan {
 namespace {
-
-constexpr uint32_t kSpirvMagic = 0x07230203, kHeaderWords = 5;
-constexpr uint32_t kOpVariable = 59, kOpDecorate = 71, kStorageOutput = 3, kDecorationLocation = 30;
 
 VkShaderStageFlags StageFlag(Stage stage) {
   switch (stage) {
@@ -16,31 +14,6 @@ VkShaderStageFlags StageFlag(Stage stage) {
     case Stage::Compute: return VK_SHADER_STAGE_COMPUTE_BIT;
   }
   return 0;
-}
-
-// Calls f(opcode, words, count) for each instruction of a SPIR-V module.
-template <class F>
-void ForEachInstruction(const Array<uint32_t>& spirv, F f) {
-  for (uint32_t i = kHeaderWords; i < spirv.size;) {
-    const uint32_t count = spirv[i] >> 16;
-    if (count == 0 || count > spirv.size - i) return;
-    f(spirv[i] & 0xFFFF, spirv.data + i, count);
-    i += count;
-  }
-}
-
-// The locations of a pixel shader's outputs: a target that it does not write must be masked, or holds garbage.
-uint32_t ColorOutputs(const Array<uint32_t>& spirv) {
-  std::vector<uint32_t> outputs;
-  ForEachInstruction(spirv, [&](uint32_t op, const uint32_t* w, uint32_t count) {
-    if (op == kOpVariable && count >= 4 && w[3] == kStorageOutput) outputs.push_back(w[2]);
-  });
-  uint32_t mask = 0;
-  ForEachInstruction(spirv, [&](uint32_t op, const uint32_t* w, uint32_t count) {
-    if (op != kOpDecorate || count < 4 || w[2] != kDecorationLocation || w[3] >= kMaxRenderTargets) return;
-    if (std::find(outputs.begin(), outputs.end(), w[1]) != outputs.end()) mask |= 1u << w[3];
-  });
-  return mask;
 }
 
 void SplitRegisters(const ShaderReflection& r, std::vector<SetBinding>* inputs, std::vector<SetBinding>* uavs) {
@@ -85,7 +58,25 @@ Shader::Shader(std::shared_ptr<Core> core, const ShaderBlob& blob)
 Shader::~Shader() {
   core_->pipelines->Forget(id);
   if (compute) core_->vk.vkDestroyPipeline(core_->device, compute, nullptr);
-  if (module) core_->vk.vkDestroyShaderModule(core_->device, module, nullptr);
+  for (VkShaderModule m : {module, pointModule_})
+    if (m) core_->vk.vkDestroyShaderModule(core_->device, m, nullptr);
+}
+
+Status Shader::CreateModule(const uint32_t* words, size_t count, VkShaderModule* out) {
+  VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+  info.codeSize = count * sizeof(uint32_t);
+  info.pCode = words;
+  const Status s = core_->Check(core_->vk.vkCreateShaderModule(core_->device, &info, nullptr, out), Name().c_str(),
+                                "vkCreateShaderModule");
+  if (s == Status::Ok) core_->SetName(VK_OBJECT_TYPE_SHADER_MODULE, uint64_t(*out), Name().c_str());
+  return s;
+}
+
+VkShaderModule Shader::PointModule() {
+  if (pointModule_) return pointModule_;
+  const std::vector<uint32_t> words = WithPointSize(spirv_);
+  CreateModule(words.data(), words.size(), &pointModule_);
+  return pointModule_;
 }
 
 void Shader::SetName(const char* name) {
@@ -112,20 +103,14 @@ Status Shader::CheckCaps(const ShaderBlob& blob) const {
 
 Status Shader::Create(const ShaderBlob& blob) {
   if (Status s = CheckCaps(blob); s != Status::Ok) return s;
-  if (blob.spirv.size <= kHeaderWords || blob.spirv[0] != kSpirvMagic || !RegistersInRange(reflection)) {
+  if (!IsSpirv(blob.spirv) || !RegistersInRange(reflection)) {
     core_->log.Report(Severity::Error, MsgCode::ShaderRejected, blob.name,
                       "no SPIR-V (%u words), or registers out of range; make the blob with fur_add_shaders",
                       blob.spirv.size);
     return Status::InvalidArg;
   }
-  VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-  info.codeSize = blob.spirv.size * sizeof(uint32_t);
-  info.pCode = blob.spirv.data;
-  if (Status s = core_->Check(core_->vk.vkCreateShaderModule(core_->device, &info, nullptr, &module), blob.name,
-                              "vkCreateShaderModule");
-      s != Status::Ok)
-    return s;
-  core_->SetName(VK_OBJECT_TYPE_SHADER_MODULE, uint64_t(module), blob.name);
+  spirv_ = blob.spirv;
+  if (Status s = CreateModule(spirv_.data, spirv_.size, &module); s != Status::Ok) return s;
   if (stage_ == Stage::Pixel) colorOutputs = ColorOutputs(blob.spirv);
 
   std::vector<SetBinding> inputs, uavs;

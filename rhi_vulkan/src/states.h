@@ -55,6 +55,7 @@ class Shader final : public VkObject<IShader> {
   Status Create(const ShaderBlob& blob);
   Stage GetStage() const override { return stage_; }
   void SetName(const char*) override;
+  VkShaderModule PointModule();  // of a vertex shader, for points without a geometry shader; null: refused
 
   ShaderReflection reflection;
   VkShaderModule module = VK_NULL_HANDLE;
@@ -67,8 +68,11 @@ class Shader final : public VkObject<IShader> {
 
  private:
   Status CheckCaps(const ShaderBlob&) const;
+  Status CreateModule(const uint32_t* words, size_t count, VkShaderModule* out);
   Status CreateComputePipeline(const char* name);
   Stage stage_;
+  Array<uint32_t> spirv_;
+  VkShaderModule pointModule_ = VK_NULL_HANDLE;
 };
 
 struct LayoutElement {  // an InputElement whose semantic is resolved

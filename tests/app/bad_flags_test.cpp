@@ -84,7 +84,8 @@ TEST(BadCommands, AreRefused) {
 
 TEST(BadCommands, UnknownAdapterIsNamed) {
   for (const char* backend : {"vulkan", "gl"})
-    ExpectRenderFailure({"--backend", backend, "--adapter", "no such adapter"}, kNoDevice, {backend, "no such adapter"});
+    ExpectRenderFailure({"--backend", backend, "--adapter", "no such adapter"}, kNoDevice,
+                        {backend, "no such adapter"});
 }
 
 }  // namespace

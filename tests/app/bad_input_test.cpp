@@ -11,7 +11,8 @@ using fur::test::Square;
 std::string Text(const fur::test::Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
 // Writes `bytes` under a name and lets the program try it.
-void ExpectRefused(const std::string& name, const std::string& bytes, ExitCode code, const std::vector<std::string>& words = {}) {
+void ExpectRefused(const std::string& name, const std::string& bytes, ExitCode code,
+                   const std::vector<std::string>& words = {}) {
   const Folder folder;
   std::vector<std::string> all = words;
   all.push_back(name);
@@ -78,8 +79,9 @@ TEST(BadInput, NotAGltf) {
 
 TEST(BadInput, GlbCutOffAnywhere) {
   const std::string glb = Text(Square().Glb());
-  for (const size_t length : {size_t{1}, size_t{3}, size_t{4}, size_t{8}, size_t{11}, size_t{12}, size_t{19}, size_t{20}, size_t{40},
-                              glb.size() / 2, glb.size() - 100, glb.size() - 17, glb.size() - 4, glb.size() - 1})
+  for (const size_t length :
+       {size_t{1}, size_t{3}, size_t{4}, size_t{8}, size_t{11}, size_t{12}, size_t{19}, size_t{20}, size_t{40},
+        glb.size() / 2, glb.size() - 100, glb.size() - 17, glb.size() - 4, glb.size() - 1})
     ExpectRefused("cut" + std::to_string(length) + ".glb", glb.substr(0, length), kInputMalformed);
 }
 
@@ -193,7 +195,8 @@ INSTANTIATE_TEST_SUITE_P(Files, BadFurFile, testing::ValuesIn(kFurFiles), Name);
 
 TEST(BadInput, MissingFurFile) {
   const Folder folder;
-  ExpectRenderFailure({folder.Write("m.gltf", Square().Gltf()), "--fur", "no/such.json"}, kInputMissing, {"no/such.json"});
+  ExpectRenderFailure({folder.Write("m.gltf", Square().Gltf()), "--fur", "no/such.json"}, kInputMissing,
+                      {"no/such.json"});
 }
 
 TEST(BadInput, UnknownFurMaterial) {

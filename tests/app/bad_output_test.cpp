@@ -66,7 +66,8 @@ TEST(BadOutput, FailureKeepsTheOldPicture) {
   const Folder folder;
   const std::string old = folder.Write("x.png", "old");
   ExpectFailure(RunFur({"render", "no_such.gltf", "-o", old}), kInputMissing);
-  ExpectFailure(RunFur({"render", "--size", "32x24", "-o", old, "--stats", "/tmp/fur_no_such_folder/s.json"}), kOutputFailed);
+  ExpectFailure(RunFur({"render", "--size", "32x24", "-o", old, "--stats", "/tmp/fur_no_such_folder/s.json"}),
+                kOutputFailed);
   EXPECT_EQ(folder.Content(), std::set<std::string>{"x.png"});
   EXPECT_EQ(std::filesystem::file_size(old), 3u);
 }

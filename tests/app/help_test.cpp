@@ -14,9 +14,10 @@ TEST(Help, NamesTheCommands) {
 TEST(Help, RenderNamesEveryFlag) {
   const Outcome o = RunFur({"render", "--help"});
   ExpectSuccess(o);
-  for (const char* flag : {"-o", "--output", "--backend", "--size", "--samples", "--technique", "--look", "--semantics", "--shells",
-                           "--eye", "--target", "--fov", "--count", "--repeat", "--stats", "--fur", "--validate", "--no-fins",
-                           "--no-shells", "MODEL"})
+  for (const char* flag :
+       {"-o",          "--output", "--backend",  "--size",    "--samples",   "--technique", "--look",
+        "--semantics", "--shells", "--eye",      "--target",  "--fov",       "--count",     "--repeat",
+        "--stats",     "--fur",    "--validate", "--no-fins", "--no-shells", "MODEL"})
     EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
 }
 

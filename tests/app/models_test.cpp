@@ -12,20 +12,17 @@ void PrintTo(const RealModel& m, std::ostream* out) { *out << m.name; }
 
 class RealModels : public testing::TestWithParam<RealModel> {};
 
-const RealModel kModels[] = {{"cat", "cat/cat.gltf"},
-                             {"fox", "fox/fox.glb"},
-                             {"spot", "spot/spot.glb"},
-                             {"plushy_toy", "plushy_toy/plushy_toy.gltf"},
-                             {"husky", "husky/husky.glb"},
-                             {"suzanne", "suzanne/suzanne.glb"},
+const RealModel kModels[] = {{"cat", "cat/cat.gltf"},      {"fox", "fox/fox.glb"},
+                             {"spot", "spot/spot.glb"},    {"plushy_toy", "plushy_toy/plushy_toy.gltf"},
+                             {"husky", "husky/husky.glb"}, {"suzanne", "suzanne/suzanne.glb"},
                              {"torus", "torus/torus.gltf"}};
 std::string Name(const testing::TestParamInfo<RealModel>& model) { return model.param.name; }
 INSTANTIATE_TEST_SUITE_P(Assets, RealModels, testing::ValuesIn(kModels), Name);
 
 void ExpectBothAlike(const std::string& model, const std::vector<std::string>& flags, bool draws = true) {
   const Folder folder;
-  std::vector<std::string> all{"render",   model, "--backend", "both", "--size", "320x240", "-o", folder / "x.png", "--validate",
-                               "--stats", folder / "s.json"};
+  std::vector<std::string> all{"render",         model,        "--backend", "both",           "--size", "320x240", "-o",
+                               folder / "x.png", "--validate", "--stats",   folder / "s.json"};
   all.insert(all.end(), flags.begin(), flags.end());
   const Outcome o = RunFur(all, 200);
   EXPECT_EQ(o.exitCode, 0) << o.err;
@@ -42,29 +39,33 @@ void ExpectBothAlike(const std::string& model, const std::vector<std::string>& f
 
 TEST_P(RealModels, BothBackendsDrawTheSame) {
   const std::string file = Asset(GetParam().file);
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
   ExpectBothAlike(file, {});
 }
 
 TEST_P(RealModels, BothBackendsDrawTheSameInLookSeed) {
   const std::string file = Asset(GetParam().file);
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
   ExpectBothAlike(file, {"--look", "seed", "--samples", "4"});
 }
 
 // Field notes, section 6: the published camera sees nine of 25 cats.
 TEST(PublishedCat, FieldOfTheDemo) {
   const std::string file = Asset("cat/cat.gltf");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
   ExpectBothAlike(file, {"--look", "seed", "--count", "25", "--eye", "-1,2,-3", "--target", "0,0,0"});
 }
 
 TEST(PublishedCat, SubmitsWhatTheDemoSubmits) {
   const std::string file = Asset("cat/cat.gltf");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
   const Folder folder;
-  const Outcome o = RunFur({"render", file, "--look", "seed", "--shells", "16", "--size", "64x48", "-o", folder / "x.png", "--stats",
-                            folder / "s.json"});
+  const Outcome o = RunFur({"render", file, "--look", "seed", "--shells", "16", "--size", "64x48", "-o",
+                            folder / "x.png", "--stats", folder / "s.json"});
   ASSERT_EQ(o.exitCode, 0) << o.err;
   const nlohmann::json s = ReadJson(folder / "s.json");
   EXPECT_EQ(s["edges_submitted"], 9846);

@@ -52,7 +52,8 @@ pid_t Spawn(const std::vector<std::string>& arguments, const std::string& out, c
 }
 
 std::string Shown(const Outcome& o) {
-  return "exit " + std::to_string(o.exitCode) + ", signal " + std::to_string(o.signal) + "\nstdout: " + o.out + "\nstderr: " + o.err;
+  return "exit " + std::to_string(o.exitCode) + ", signal " + std::to_string(o.signal) + "\nstdout: " + o.out +
+         "\nstderr: " + o.err;
 }
 
 }  // namespace
@@ -113,7 +114,8 @@ void ExpectFailure(const Outcome& o, ExitCode code, const std::vector<std::strin
   EXPECT_EQ(o.out, "");
 }
 
-void ExpectRenderFailure(const std::vector<std::string>& arguments, ExitCode code, const std::vector<std::string>& words) {
+void ExpectRenderFailure(const std::vector<std::string>& arguments, ExitCode code,
+                         const std::vector<std::string>& words) {
   const Folder folder;
   std::vector<std::string> all{"render"};
   all.insert(all.end(), arguments.begin(), arguments.end());
@@ -151,7 +153,8 @@ uint64_t DifferingPixels(const fur::Image& a, const fur::Image& b) {
   EXPECT_EQ(a.height, b.height);
   if (a.pixels.size() != b.pixels.size()) return a.pixels.size();
   uint64_t differing = 0;
-  for (size_t i = 0; i < a.pixels.size(); i += 4) differing += !std::equal(&a.pixels[i], &a.pixels[i] + 4, &b.pixels[i]);
+  for (size_t i = 0; i < a.pixels.size(); i += 4)
+    differing += !std::equal(&a.pixels[i], &a.pixels[i] + 4, &b.pixels[i]);
   return differing;
 }
 

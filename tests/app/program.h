@@ -14,8 +14,8 @@
 namespace app::test {
 
 struct Outcome {
-  int exitCode = -1;    // -1: ended by a signal, or by the time limit
-  int signal = 0;       // what ended it, or 0
+  int exitCode = -1;  // -1: ended by a signal, or by the time limit
+  int signal = 0;     // what ended it, or 0
   bool timedOut = false;
   std::string out, err;
 };
@@ -44,7 +44,8 @@ enum ExitCode { kSuccess, kInternal, kUsage, kInputMissing, kInputMalformed, kOu
 void ExpectFailure(const Outcome&, ExitCode, const std::vector<std::string>& words = {});
 
 // Runs `fur render ARGUMENTS -o x.png` in a new folder: fails as above and leaves nothing there.
-void ExpectRenderFailure(const std::vector<std::string>& arguments, ExitCode, const std::vector<std::string>& words = {});
+void ExpectRenderFailure(const std::vector<std::string>& arguments, ExitCode,
+                         const std::vector<std::string>& words = {});
 
 // Exit code 0 and nothing on stderr.
 void ExpectSuccess(const Outcome&);

@@ -9,7 +9,8 @@ const char* const kBackends[] = {"vulkan", "gl"};
 // Renders on both backends with validation: no message, no differing pixel; returns the picture.
 fur::Image RenderBoth(std::vector<std::string> flags, bool mustBeDrawn = true) {
   const Folder folder;
-  std::vector<std::string> all{"render", "-o", folder / "x.png", "--backend", "both", "--validate", "--stats", folder / "s.json"};
+  std::vector<std::string> all{"render", "-o",         folder / "x.png", "--backend",
+                               "both",   "--validate", "--stats",        folder / "s.json"};
   if (std::find(flags.begin(), flags.end(), "--size") == flags.end()) flags.insert(flags.end(), {"--size", "320x240"});
   std::string shown;
   for (const std::string& f : flags) shown += " " + f;
@@ -37,7 +38,8 @@ TEST(Render, BothBackendsDrawTheSame) {
 TEST(Render, LooksAndSemanticsDiffer) {
   std::vector<fur::Image> images;
   for (const char* look : {"seed", "correct"})
-    for (const char* semantics : {"sheet", "volume"}) images.push_back(RenderBoth({"--look", look, "--semantics", semantics}));
+    for (const char* semantics : {"sheet", "volume"})
+      images.push_back(RenderBoth({"--look", look, "--semantics", semantics}));
   for (size_t i = 0; i < images.size(); ++i)
     for (size_t j = 0; j < i; ++j) EXPECT_GT(DifferingPixels(images[i], images[j]), 1000u) << i << " and " << j;
 }
@@ -68,7 +70,8 @@ TEST(Render, SeveralAnimals) {
 TEST(Render, CameraFlags) {
   const fur::Image published = RenderBoth({"--eye", "-0.8,1.2,-1.6", "--target", "0,0.5,0"});
   EXPECT_GT(DifferingPixels(published, RenderBoth({"--eye", "0.8,1.2,-1.6", "--target", "0,0.5,0"})), 1000u);
-  EXPECT_GT(DifferingPixels(published, RenderBoth({"--eye", "-0.8,1.2,-1.6", "--target", "0,0.5,0", "--fov", "40"})), 1000u);
+  EXPECT_GT(DifferingPixels(published, RenderBoth({"--eye", "-0.8,1.2,-1.6", "--target", "0,0.5,0", "--fov", "40"})),
+            1000u);
   const fur::Image away = RenderBoth({"--eye", "0,1,-3", "--target", "0,1,-30"}, false);
   EXPECT_EQ(away.pixels, RenderBoth({"--eye", "0,1,-4", "--target", "0,1,-30"}, false).pixels) << "an empty view";
 }
@@ -126,8 +129,9 @@ TEST(Stats, HaveAllFields) {
   for (const char* backend : kBackends)
     for (const size_t repeats : {0u, 1u, 5u}) {
       const Folder folder;
-      ExpectSuccess(RunFur({"render", "--backend", backend, "--size", "96x64", "--samples", "4", "--count", "2", "--repeat",
-                            std::to_string(repeats), "-o", folder / "x.png", "--stats", folder / "s.json", "--validate"}));
+      ExpectSuccess(
+          RunFur({"render", "--backend", backend, "--size", "96x64", "--samples", "4", "--count", "2", "--repeat",
+                  std::to_string(repeats), "-o", folder / "x.png", "--stats", folder / "s.json", "--validate"}));
       const nlohmann::json s = ReadJson(folder / "s.json");
       ExpectStats(s, backend, repeats);
       std::vector<double> ms = s["frame_ms"].get<std::vector<double>>();
@@ -138,13 +142,14 @@ TEST(Stats, HaveAllFields) {
 
 TEST(Stats, BothBackendsSubmitAndShadeTheSame) {
   const Folder folder;
-  ExpectSuccess(RunFur({"render", "--backend", "both", "--size", "96x64", "--samples", "4", "--count", "2", "-o", folder / "x.png",
-                        "--stats", folder / "s.json", "--validate"}));
+  ExpectSuccess(RunFur({"render", "--backend", "both", "--size", "96x64", "--samples", "4", "--count", "2", "-o",
+                        folder / "x.png", "--stats", folder / "s.json", "--validate"}));
   const nlohmann::json s = ReadJson(folder / "s.json");
   ASSERT_EQ(s["runs"].size(), 2u);
   ExpectStats(s["runs"][0], "vulkan", 1);
   ExpectStats(s["runs"][1], "gl", 1);
-  for (const char* key : {"draws", "triangles_submitted", "edges_submitted", "fragments_shaded", "fragments", "skipped"})
+  for (const char* key :
+       {"draws", "triangles_submitted", "edges_submitted", "fragments_shaded", "fragments", "skipped"})
     EXPECT_EQ(s["runs"][0][key], s["runs"][1][key]) << key;
   EXPECT_EQ(s["difference"]["pixels"], 96 * 64);
   EXPECT_EQ(s["difference"]["differing"], 0);
@@ -155,14 +160,17 @@ TEST(Stats, BothBackendsSubmitAndShadeTheSame) {
 TEST(Stats, CountsFollowTheFlags) {
   const auto stats = [](std::vector<std::string> flags) {
     const Folder folder;
-    std::vector<std::string> all{"render", "--size", "64x48", "--repeat", "0", "-o", folder / "x.png", "--stats", folder / "s.json"};
+    std::vector<std::string> all{"render", "--size",         "64x48",   "--repeat",       "0",
+                                 "-o",     folder / "x.png", "--stats", folder / "s.json"};
     all.insert(all.end(), flags.begin(), flags.end());
     ExpectSuccess(RunFur(all));
     return ReadJson(folder / "s.json");
   };
-  const nlohmann::json one = stats({"--shells", "10"}), twenty = stats({"--shells", "20"}), none = stats({"--no-shells", "--no-fins"});
+  const nlohmann::json one = stats({"--shells", "10"}), twenty = stats({"--shells", "20"}),
+                       none = stats({"--no-shells", "--no-fins"});
   const auto triangles = [](const nlohmann::json& s) { return s["triangles_submitted"].get<uint64_t>(); };
-  EXPECT_EQ(triangles(twenty) - triangles(one), triangles(one) - triangles(stats({"--no-shells"}))) << "ten shells each";
+  EXPECT_EQ(triangles(twenty) - triangles(one), triangles(one) - triangles(stats({"--no-shells"})))
+      << "ten shells each";
   EXPECT_EQ(none["edges_submitted"], 0);
   EXPECT_EQ(none["fragments"]["shells"], 0);
   EXPECT_EQ(none["fragments"]["fins"], 0);

@@ -38,7 +38,8 @@ TEST_P(Base, AmbientLightIsMultipliedInTheSpaceOfTheLook) {
   ExpectColor(Center(seed.image), {201 / 255.0 * 0.5, 148 / 255.0 * 0.25, 77 / 255.0}, 0.51, "raw values");
   const Frame correct = Render(*device_, BaldSquare(10, kTan), Settings(Look::Correct, light), CameraAt(3, 0, 0));
   ExpectColor(Center(correct.image),
-              {Encode(Decode(201 / 255.0) * 0.5), Encode(Decode(148 / 255.0) * 0.25), 77 / 255.0}, 0.75, "linear light");
+              {Encode(Decode(201 / 255.0) * 0.5), Encode(Decode(148 / 255.0) * 0.25), 77 / 255.0}, 0.75,
+              "linear light");
 }
 
 // glTF's factor is linear. Look seed has none: the texels are painted with it.
@@ -49,7 +50,8 @@ TEST_P(Base, BaseColorFactorIsLinear) {
   model.materials[0].baseColorTexture.image = -1;
   for (const Look look : {Look::Seed, Look::Correct}) {
     const Frame frame = Render(*device_, model, Settings(look, light), CameraAt(3, 0, 0));
-    ExpectColor(Center(frame.image), {Encode(0.25), Encode(0.5), Encode(0.75)}, 0.75, "look " + std::to_string(int(look)));
+    ExpectColor(Center(frame.image), {Encode(0.25), Encode(0.5), Encode(0.75)}, 0.75,
+                "look " + std::to_string(int(look)));
   }
 }
 
@@ -63,7 +65,8 @@ TEST_P(Base, DiffuseLightIsTheCosine) {
     const Frame correct = Render(*device_, white, Settings(Look::Correct, light), CameraAt(3, 0, 0));
     ExpectColor(Center(correct.image), glm::dvec3(Encode(cosine)), 1, "correct at " + std::to_string(degrees));
     const Frame seed = Render(*device_, white, Settings(Look::Seed, light), CameraAt(3, 0, 0));
-    ExpectColor(Center(seed.image), glm::dvec3(std::max(0.0, std::cos(a) - slant)), 0.6, "seed at " + std::to_string(degrees));
+    ExpectColor(Center(seed.image), glm::dvec3(std::max(0.0, std::cos(a) - slant)), 0.6,
+                "seed at " + std::to_string(degrees));
   }
 }
 
@@ -97,7 +100,8 @@ TEST_P(Base, NormalMapLeansTheNormal) {
   Model model = BaldSquare(10, {255, 255, 255, 255});
   model.images.push_back(Plain("normal", {204, 90, 217, 255}));
   model.materials[0].normalTexture.image = 1;
-  const glm::dvec3 n = glm::normalize(glm::dvec3(204, 90, 217) / 127.5 - 1.0), l = glm::normalize(glm::dvec3(0.4, 0.2, 1));
+  const glm::dvec3 n = glm::normalize(glm::dvec3(204, 90, 217) / 127.5 - 1.0),
+                   l = glm::normalize(glm::dvec3(0.4, 0.2, 1));
   const Light light = Only(glm::dvec3(0), glm::dvec3(1), glm::dvec3(0), -l);
   const Frame correct = Render(*device_, model, Settings(Look::Correct, light), CameraAt(3, 0, 0));
   ExpectColor(Center(correct.image), glm::dvec3(Encode(glm::dot(n, l))), 1, "correct");
@@ -126,12 +130,28 @@ TEST_P(Base, PictureIsNotFlipped) {
     EXPECT_EQ(PixelAt(frame.image, x, y), (Rgb{0, 0, 0})) << x << "," << y;
 }
 
+// Edges exactly through pixel centres: the top and the left one belong to the square, the others do not, as in
+// Direct3D. A backend with another rule draws nearly the same picture, but not to the bit.
+TEST_P(Base, TopLeftRule) {
+  RenderSettings settings = Settings(Look::Correct, {});
+  settings.width = settings.height = 32;
+  const Frame frame = Render(*device_, BaldSquare(9 / 32.0, kTan), settings, CameraAt(1, 0, 0, 90));
+  const auto drawn = [&](uint32_t x, uint32_t y) { return PixelAt(frame.image, x, y) != Rgb{0, 0, 0}; };
+  EXPECT_TRUE(drawn(16, 11)) << "top edge";
+  EXPECT_FALSE(drawn(16, 20)) << "bottom edge";
+  EXPECT_TRUE(drawn(11, 16)) << "left edge";
+  EXPECT_FALSE(drawn(20, 16)) << "right edge";
+  EXPECT_EQ(frame.counts.baseFragments, 81u);
+}
+
 // Back faces are culled, unless the material is double-sided or a mirroring transform turns them to the front.
 TEST_P(Base, FaceCulling) {
   Model model = BaldSquare(10, kTan);
   const RenderSettings settings = Settings(Look::Correct, {});
   const uint64_t all = uint64_t{settings.width} * settings.height;
-  const auto fragments = [&](double yaw) { return Render(*device_, model, settings, CameraAt(3, yaw, 0)).counts.baseFragments; };
+  const auto fragments = [&](double yaw) {
+    return Render(*device_, model, settings, CameraAt(3, yaw, 0)).counts.baseFragments;
+  };
   EXPECT_EQ(fragments(0), all);
   EXPECT_EQ(fragments(180), 0u);
   model.parts[0].transform = glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1));

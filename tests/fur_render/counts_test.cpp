@@ -78,7 +78,8 @@ TEST_P(Counts, PassesThatAreSwitchedOffCostNothing) {
   EXPECT_EQ(noFins.draws, 2u);
   settings.drawFins = true;
   settings.drawShells = false;
-  const FrameCounts noShells = Render(*device_, Tetrahedron(UniformCoat(16, 128)), settings, CameraAt(6, 20, 10)).counts;
+  const FrameCounts noShells =
+      Render(*device_, Tetrahedron(UniformCoat(16, 128)), settings, CameraAt(6, 20, 10)).counts;
   EXPECT_EQ(noShells.edges, 12u);
   EXPECT_EQ(noShells.shellFragments, 0u);
   EXPECT_EQ(noShells.draws, 2u);

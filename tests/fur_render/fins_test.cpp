@@ -56,7 +56,8 @@ struct Probe {
 
 Probe MakeProbe(rhi::IDevice& device) {
   Probe p;
-  rhi::TextureDesc desc{.width = 96, .height = 64, .format = rhi::Format::RGBA8_UNorm_sRGB, .bind = rhi::Bind::RenderTarget};
+  rhi::TextureDesc desc{
+      .width = 96, .height = 64, .format = rhi::Format::RGBA8_UNorm_sRGB, .bind = rhi::Bind::RenderTarget};
   EXPECT_EQ(device.CreateTexture(desc, nullptr, &p.color), rhi::Status::Ok);
   desc.format = rhi::Format::D32_Float;
   desc.bind = rhi::Bind::DepthStencil;
@@ -78,7 +79,9 @@ uint64_t EmittedTriangles(rhi::IDevice& device, const Model& model, const Camera
     return 0;
   }
   FrameCounts counts;
-  FrameInputs in{.eye = camera.eye, .worldToClip = ProjectionMatrix(camera, 1.5) * ViewMatrix(camera), .placements = {&placement, 1},
+  FrameInputs in{.eye = camera.eye,
+                 .worldToClip = ProjectionMatrix(camera, 1.5) * ViewMatrix(camera),
+                 .placements = {&placement, 1},
                  .counts = &counts};
   rhi::IContext& context = *device.ImmediateContext();
   rhi::IRenderTargetView* const views[] = {probe.colorView.get()};
@@ -105,7 +108,8 @@ TEST_P(Fins, SilhouetteEdgesOfClosedBodies) {
       const Camera camera = CameraAt(7.3, yaw + 1, pitch + 2);
       const uint64_t fins = ExpectedFins(model.primitives[0], camera.eye);
       EXPECT_GE(fins, 6u) << "the oracle finds no silhouette";
-      EXPECT_EQ(EmittedTriangles(**device_, model, camera, glm::dmat4(1)), 2 * fins) << "yaw " << yaw << " pitch " << pitch;
+      EXPECT_EQ(EmittedTriangles(**device_, model, camera, glm::dmat4(1)), 2 * fins)
+          << "yaw " << yaw << " pitch " << pitch;
     }
 }
 

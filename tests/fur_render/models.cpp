@@ -75,7 +75,8 @@ Model FurredMesh(const std::vector<glm::vec3>& positions, const std::vector<uint
   for (const glm::vec3& q : positions) {
     const glm::vec3 normal = glm::normalize(q);
     const glm::vec3 side = std::abs(normal.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    p.vertices.push_back({.position = q, .normal = normal, .tangent = glm::vec4(glm::normalize(glm::cross(side, normal)), 1)});
+    p.vertices.push_back(
+        {.position = q, .normal = normal, .tangent = glm::vec4(glm::normalize(glm::cross(side, normal)), 1)});
   }
   model.primitives = {p};
   Grow(coat, &model);
@@ -89,8 +90,8 @@ Model Tetrahedron(const Coat& coat) {
 Model Cube(const Coat& coat) {
   std::vector<glm::vec3> corners;
   for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
-  return FurredMesh(corners,
-                    {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5},
+  return FurredMesh(corners, {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                              2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5},
                     coat);
 }
 

@@ -45,7 +45,8 @@ glm::dvec3 CorrectShading(const SquareScene& s, const glm::dvec3& ray, const glm
   const double wrapped = std::clamp((l.z + kWrap) / (1 + kWrap), 0.0, 1.0);
   // sin a sin b - cos a cos b = -cos(a + b)
   const double lobe = std::pow(std::max(0.0, -std::cos(toLight + toEye)), s.coat.specularPower);
-  const glm::dvec3 direct = Albedo(s) * s.light.diffuse * std::sin(toLight) + s.light.specular * (lobe * s.coat.specularScale);
+  const glm::dvec3 direct =
+      Albedo(s) * s.light.diffuse * std::sin(toLight) + s.light.specular * (lobe * s.coat.specularScale);
   return Albedo(s) * s.light.ambient + direct * (wrapped * glm::mix(s.coat.selfShadow, 1.0, height));
 }
 
@@ -92,7 +93,8 @@ glm::dvec4 ShellColor(const SquareScene& s, const glm::dvec3& ray, uint32_t shel
   const double layer = shell * slices / s.shells, height = layer / slices;
   const auto slice = uint32_t(std::min(std::floor(layer + 0.5), slices - 1));
   const glm::dvec3 strand = Strand(s, s.coat.slices[slice]);
-  const glm::dvec3 color = s.look == Look::Seed ? SeedShading(s, ray, strand, height) : CorrectShading(s, ray, strand, height);
+  const glm::dvec3 color =
+      s.look == Look::Seed ? SeedShading(s, ray, strand, height) : CorrectShading(s, ray, strand, height);
   return glm::dvec4(Clamped(color), ShellOpacity(s, ray, slice, height));
 }
 

@@ -1,5 +1,6 @@
 // The published lighting and the equations of look correct once more, in double, written from the descriptions
-// (docs/seed.md, docs/accuracy.md) and not from the shaders: for the square z = 0 of models.h, whose frame is the world's.
+// (docs/seed.md, docs/accuracy.md) and not from the shaders: for the square z = 0 of models.h, whose frame is the
+// world's.
 #pragma once
 
 #include <glm/glm.hpp>

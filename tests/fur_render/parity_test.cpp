@@ -104,7 +104,8 @@ TEST(ParityField, FramesRepeatExactly) {
     const Result<Image> again = (*renderer)->ReadImage();
     ASSERT_TRUE(first && again);
     EXPECT_EQ(DifferingPixels(*first, *again), 0u) << backend.name;
-    EXPECT_EQ(DifferingPixels(*first, Render(device, Animal(), settings, CloseCamera(), placements).image), 0u) << backend.name;
+    EXPECT_EQ(DifferingPixels(*first, Render(device, Animal(), settings, CloseCamera(), placements).image), 0u)
+        << backend.name;
   }
 }
 

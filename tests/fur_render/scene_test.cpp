@@ -128,9 +128,7 @@ TEST(Scene, ViewLooksAlongMinusZWithYUp) {
 }
 
 // The box of assets/cat/SOURCE.md.
-TEST(Scene, ScaleOfTheCatIsOne) {
-  EXPECT_EQ(SceneScale({{-0.336, -0.015, -1.269}, {0.343, 1.829, 1.395}}), 1);
-}
+TEST(Scene, ScaleOfTheCatIsOne) { EXPECT_EQ(SceneScale({{-0.336, -0.015, -1.269}, {0.343, 1.829, 1.395}}), 1); }
 
 TEST(Scene, ScaleIsTheNearestPowerOfTwo) {
   for (const double size : {1e-6, 0.02, 0.4, 1.0, 3.0, 150.0, 1e7}) {

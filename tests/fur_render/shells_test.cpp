@@ -13,23 +13,32 @@ INSTANTIATE_TEST_SUITE_P(Backends, Shells, testing::ValuesIn(Backends()), Backen
 constexpr uint32_t kWidth = 33, kHeight = 25;
 constexpr double kDrift = 2;  // of 255: what rounding the target at each of the shells may add up to
 
-const Light kSide{.direction = {0.7, -0.4, -0.5}, .diffuse = {0.9, 0.8, 0.7}, .ambient = {0.3, 0.25, 0.2}, .specular = glm::dvec3(0.5)};
-const Light kBehind{.direction = {0.3, 0.4, 1}, .diffuse = glm::dvec3(1), .ambient = glm::dvec3(0.3), .specular = glm::dvec3(0.5)};
+const Light kSide{.direction = {0.7, -0.4, -0.5},
+                  .diffuse = {0.9, 0.8, 0.7},
+                  .ambient = {0.3, 0.25, 0.2},
+                  .specular = glm::dvec3(0.5)};
+const Light kBehind{
+    .direction = {0.3, 0.4, 1}, .diffuse = glm::dvec3(1), .ambient = glm::dvec3(0.3), .specular = glm::dvec3(0.5)};
 
 // Slices that differ in everything, so that a swapped or shifted slice shows.
 Coat VariedCoat(uint32_t slices) {
   Coat coat;
   for (uint32_t i = 0; i < slices; ++i) {
     const uint32_t k = i % 4;
-    coat.slices.push_back({uint8_t(128 + 30 * k), uint8_t(148 - 40 * (i % 3)), uint8_t(220 - 25 * k), uint8_t(90 + 11 * i)});
+    coat.slices.push_back(
+        {uint8_t(128 + 30 * k), uint8_t(148 - 40 * (i % 3)), uint8_t(220 - 25 * k), uint8_t(90 + 11 * i)});
   }
   coat.slices[slices / 3][3] = 2;  // below the published threshold of 0.01
   return coat;
 }
 
 void ExpectComposite(TestDevice& device, const SquareScene& scene, const Camera& camera, const std::string& what) {
-  const RenderSettings settings{.width = kWidth, .height = kHeight, .look = scene.look, .semantics = scene.semantics,
-                                .shells = scene.shells, .light = scene.light};
+  const RenderSettings settings{.width = kWidth,
+                                .height = kHeight,
+                                .look = scene.look,
+                                .semantics = scene.semantics,
+                                .shells = scene.shells,
+                                .light = scene.light};
   const Frame frame = Render(device, FurredSquare(40, scene.color, scene.coat), settings, camera);
   for (const auto& [x, y] : {std::pair{16u, 12u}, {1u, 1u}, {31u, 4u}, {8u, 23u}}) {
     const glm::dvec3 ray = RayThrough(camera, kWidth, kHeight, x, y);
@@ -48,7 +57,8 @@ std::vector<SquareScene> Scenes() {
 }
 
 std::string Describe(const SquareScene& s) {
-  return std::string(s.look == Look::Seed ? "seed" : "correct") + (s.semantics == Semantics::Sheet ? " sheet" : " volume") +
+  return std::string(s.look == Look::Seed ? "seed" : "correct") +
+         (s.semantics == Semantics::Sheet ? " sheet" : " volume") +
          (s.light.direction.z > 0 ? " lit from behind" : " lit from the front");
 }
 
@@ -95,7 +105,8 @@ TEST_P(Shells, NoDirectionMeansStraightUp) {
   ExpectComposite(*device_, scene, CameraAt(3, 30, 0), "no direction");
   const RenderSettings settings{.width = kWidth, .height = kHeight, .light = kSide};
   const Frame none = Render(*device_, FurredSquare(40, scene.color, scene.coat), settings, CameraAt(3, 30, 0));
-  const Frame up = Render(*device_, FurredSquare(40, scene.color, UniformCoat(16, 128, {128, 128, 255})), settings, CameraAt(3, 30, 0));
+  const Frame up = Render(*device_, FurredSquare(40, scene.color, UniformCoat(16, 128, {128, 128, 255})), settings,
+                          CameraAt(3, 30, 0));
   for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(Center(none.image)[c], Center(up.image)[c], 1);
 }
 
@@ -104,8 +115,14 @@ TEST_P(Shells, VolumeOpacityGrowsWithThePath) {
   Coat coat = UniformCoat(2, 128);
   coat.selfShadow = 1;
   // Black skin and white fur, so that the picture is the opacity: only the coat's light differs from the skin's.
-  const Light fur{.direction = {1, 0, 0}, .diffuse = glm::dvec3(1.5), .ambient = glm::dvec3(0), .specular = glm::dvec3(0)};
-  RenderSettings settings{.width = kWidth, .height = kHeight, .look = Look::Correct, .semantics = Semantics::Volume, .shells = 2, .light = fur};
+  const Light fur{
+      .direction = {1, 0, 0}, .diffuse = glm::dvec3(1.5), .ambient = glm::dvec3(0), .specular = glm::dvec3(0)};
+  RenderSettings settings{.width = kWidth,
+                          .height = kHeight,
+                          .look = Look::Correct,
+                          .semantics = Semantics::Volume,
+                          .shells = 2,
+                          .light = fur};
   const double wrapped = 0.5 / 1.5 * 1.5;  // light along the surface, wrapped by a half
   for (const double yaw : {0.0, 60.0, 75.0, 85.0}) {
     const Camera camera = CameraAt(3, yaw, 0);

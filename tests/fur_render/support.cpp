@@ -72,13 +72,13 @@ uint64_t DifferingPixels(const Image& a, const Image& b) {
   EXPECT_EQ(a.pixels.size(), b.pixels.size());
   if (a.pixels.size() != b.pixels.size()) return a.pixels.size();
   uint64_t differing = 0;
-  for (size_t i = 0; i < a.pixels.size(); i += 4) differing += !std::equal(&a.pixels[i], &a.pixels[i] + 4, &b.pixels[i]);
+  for (size_t i = 0; i < a.pixels.size(); i += 4)
+    differing += !std::equal(&a.pixels[i], &a.pixels[i] + 4, &b.pixels[i]);
   return differing;
 }
 
 void ExpectColor(const Rgb& got, const glm::dvec3& expected, double tolerance, const std::string& what) {
-  for (size_t c = 0; c < 3; ++c)
-    EXPECT_NEAR(got[c], 255 * expected[int(c)], tolerance) << what << ", channel " << c;
+  for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(got[c], 255 * expected[int(c)], tolerance) << what << ", channel " << c;
 }
 
 }  // namespace fur::test

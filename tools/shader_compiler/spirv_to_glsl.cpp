@@ -23,9 +23,12 @@ class GlslCompiler : public spirv_cross::CompilerGLSL {
   }
 };
 
+constexpr const char* kFlip = "gl_Position.y = -gl_Position.y;";  // what SPIRV-Cross writes for flip_vert_y
+
 void SetOptions(GlslCompiler& c) {
   spirv_cross::CompilerGLSL::Options o;
   o.version = 450;
+  o.vertex.flip_vert_y = true;
   o.vertex.support_nonzero_base_instance = false;
   c.set_common_options(o);
 }
@@ -113,6 +116,19 @@ bool ReadsBaseVertex(const GlslCompiler& c) {
   return std::any_of(inputs.begin(), inputs.end(), [](const auto& r) { return r.builtin == spv::BuiltInBaseVertex; });
 }
 
+void ReplaceAll(std::string& text, const std::string& what, const std::string& with) {
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+}
+
+// Row 0 is the top: the last stage before the rasterizer turns the picture over (docs/rhi.md). A vertex shader is the
+// last one only without a geometry shader, which the backend says by a macro when it compiles.
+void FlipLastStage(std::string& source, rhi::Stage stage) {
+  if (stage == rhi::Stage::Geometry) ReplaceAll(source, "EmitVertex();", std::string(kFlip) + "\n    EmitVertex();");
+  if (stage == rhi::Stage::Vertex)
+    ReplaceAll(source, kFlip, "\n#ifdef " + std::string(rhi::kGlLastStageMacro) + "\n    " + kFlip + "\n#endif");
+}
+
 GlslResult Translate(const std::vector<uint32_t>& words, rhi::Stage stage) {
   GlslCompiler c(words);
   GlslResult result;
@@ -125,6 +141,7 @@ GlslResult Translate(const std::vector<uint32_t>& words, rhi::Stage stage) {
   c.build_combined_image_samplers();
   Binder(c, result.reflection, stage).Run();
   result.source = c.compile();
+  FlipLastStage(result.source, stage);
   return result;
 }
 
