@@ -166,7 +166,7 @@ class Context final : public backend::ContextBase {
   GLenum indexType_ = GL_UNSIGNED_INT;
   uint32_t indexShift_ = 2;
   uint64_t indexBase_ = 0;
-  bool hasIndices_ = false, usesVertexId_ = false;
+  bool hasIndices_ = false, usesVertexId_ = false, writesColors_ = true;
   const Framebuffer* framebuffer_ = nullptr;
   const Program* program_ = nullptr;
 

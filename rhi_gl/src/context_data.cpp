@@ -10,11 +10,14 @@ using namespace backend;
 
 namespace {
 
-// `size` is some registers. Cheaper than memcpy for as few as constants are.
+// `size` is one register or more. Cheaper than memcpy for as few as constants are.
 inline void CopyRegisters(std::byte* to, const void* from, uint32_t size) {
   const auto* source = static_cast<const std::byte*>(from);
-  const std::byte* const end = to + size;
-  for (; to != end; to += kRegisterBytes, source += kRegisterBytes) std::memcpy(to, source, kRegisterBytes);
+  uint64_t at = 0;
+  do {
+    std::memcpy(to + at, source + at, kRegisterBytes);
+    at += kRegisterBytes;
+  } while (at != size);
 }
 
 }  // namespace
@@ -24,9 +27,10 @@ void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) 
   auto* buffer = static_cast<Buffer*>(target);
   if (!buffer || size != buffer->quickSize || !ring_.IsAtHand(*buffer)) [[unlikely]]
     return UpdateElsewhere(buffer, data, size);
-  CopyRegisters(ring_.Advance(*buffer), data, size);
-  glBindBufferRange(GL_UNIFORM_BUFFER, buffer->quickSlot, buffer->name, GLintptr(buffer->offset),
-                    GLsizeiptr(buffer->range));
+  std::byte* const slice = ring_.Advance(*buffer);
+  const uint32_t offset = buffer->offset;
+  CopyRegisters(slice, data, size);
+  glBindBufferRange(GL_UNIFORM_BUFFER, buffer->quickSlot, buffer->name, offset, buffer->range);
 }
 
 // Whatever is not as it was at the last update: the size, the page, the current context; and mistakes.

@@ -316,9 +316,10 @@ void Context::ApplyOutput() {
   if (dirty_ & (DirtyDepthStencil | DirtyStencilRef))
     gl_.SetDepthStencil(state_.depthStencil ? state_.depthStencil->Desc() : kDepth, state_.stencilRef);
   // Without a pixel shader colours stay as they are; GL would write whatever it finds.
-  if (dirty_ & (DirtyBlend | DirtyShaders | DirtyTargets))
-    gl_.SetBlend(state_.blend ? state_.blend->Desc() : kBlend, ShaderOf(state_, Stage::Pixel) != nullptr,
-                 state_.targetCount);
+  const bool colors = ShaderOf(state_, Stage::Pixel) != nullptr;
+  if ((dirty_ & (DirtyBlend | DirtyTargets)) || colors != writesColors_)
+    gl_.SetBlend(state_.blend ? state_.blend->Desc() : kBlend, colors, state_.targetCount);
+  writesColors_ = colors;
   if (dirty_ & DirtyBlendFactor) gl_.SetBlendFactor(state_.blendFactor);
   if (dirty_ & (DirtyBlendFactor | DirtyTargets)) gl_.SetSampleMask(state_.sampleMask, framebuffer_->samples);
 }
