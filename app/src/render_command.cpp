@@ -3,11 +3,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "fur/builtin.h"
+#include "fur/file.h"
 #include "fur/gltf.h"
 #include "fur/image_io.h"
 #include "render_job.h"
@@ -76,6 +76,8 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   if (f.background.empty()) return s;
   Result<glm::dvec3> background = ParseVector(f.background, "--background");
   if (!background) return background.error();
+  if (glm::any(glm::lessThan(*background, glm::dvec3(0))) || glm::any(glm::greaterThan(*background, glm::dvec3(1))))
+    return Error{ErrorCode::Usage, "--background takes values of 0..1, not '" + f.background + "'"};
   s.background = *background;
   return s;
 }
@@ -147,40 +149,15 @@ std::filesystem::path WithBackend(const std::filesystem::path& file, const std::
   return named.replace_extension(backend + file.extension().string());
 }
 
-std::filesystem::path Partial(const std::filesystem::path& file) {
-  std::filesystem::path partial = file;
-  return partial += ".partial";
+std::filesystem::path PictureFile(const RenderFlags& f, const std::string& backend) {
+  return f.backend == "both" ? WithBackend(f.output, backend) : std::filesystem::path(f.output);
 }
 
-// Says before the work whether an output can be written at all.
-Result<Done> CheckOutput(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  std::error_code ec;
-  if (!std::filesystem::is_directory(folder, ec))
-    return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}: {} is not a folder", file.string(), folder.string())};
-  if (std::filesystem::is_directory(file, ec))
-    return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}: it is a folder", file.string())};
-  const bool writable = std::ofstream(Partial(file)).is_open();
-  std::filesystem::remove(Partial(file), ec);
-  if (writable) return Done{};
-  return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}: no file can be made in {}", file.string(), folder.string())};
-}
-
-// Whole or not at all, as WritePng.
-Result<Done> WriteText(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path partial = Partial(file);
-  std::error_code ec;
-  bool ok = false;
-  {
-    std::ofstream out(partial, std::ios::binary);
-    out << text;
-    out.close();
-    ok = bool(out);
-  }
-  if (ok) std::filesystem::rename(partial, file, ec);
-  if (ok && !ec) return Done{};
-  std::filesystem::remove(partial, ec);
-  return Error{ErrorCode::OutputFailed, fmt::format("cannot write {}", file.string())};
+std::vector<std::filesystem::path> OutputFiles(const RenderFlags& f) {
+  std::vector<std::filesystem::path> files;
+  for (const BackendEntry* b : SelectBackends(f.backend)) files.push_back(PictureFile(f, b->name));
+  if (!f.stats.empty()) files.push_back(f.stats);
+  return files;
 }
 
 std::string Throughput(const RenderOutcome& out) {
@@ -199,13 +176,13 @@ nlohmann::ordered_json AllStats(const std::vector<RenderOutcome>& outcomes, cons
 
 Result<Done> WriteOutputs(const RenderFlags& f, const RenderJob& job, const std::vector<RenderOutcome>& outcomes) {
   for (const RenderOutcome& out : outcomes) {
-    const std::filesystem::path file = outcomes.size() > 1 ? WithBackend(f.output, out.backend) : std::filesystem::path(f.output);
+    const std::filesystem::path file = PictureFile(f, out.backend);
     Result<Done> written = fur::WritePng(file, out.image.width, out.image.height, out.image.pixels);
     if (!written) return written.error();
     fmt::print("{}: {} ({})\n  {}\n", out.backend, file.string(), out.caps.driver.data(), Throughput(out));
   }
   if (f.stats.empty()) return Done{};
-  return WriteText(f.stats, AllStats(outcomes, job).dump(2) + "\n");
+  return fur::WriteFile(f.stats, AllStats(outcomes, job).dump(2) + "\n");
 }
 
 void PrintDifference(const RenderOutcome& a, const RenderOutcome& b) {
@@ -235,10 +212,10 @@ Result<RenderJob> PrepareJob(const RenderFlags& f, const fur::Model& model) {
 }
 
 Result<Done> Render(const RenderFlags& f) {
-  for (const std::string* file : {&f.output, &f.stats}) {
-    if (file->empty()) continue;
-    if (Result<Done> ok = CheckOutput(*file); !ok) return ok.error();
-  }
+  if (!f.stats.empty() && f.stats == f.output)
+    return Error{ErrorCode::Usage, "-o and --stats name the same file: " + f.output};
+  for (const std::filesystem::path& file : OutputFiles(f))
+    if (Result<Done> ok = fur::CheckWritable(file); !ok) return ok.error();
   if (Result<fur::RenderSettings> settings = MakeSettings(f); !settings) return settings.error();
   Result<fur::Model> model = LoadModel(f);
   if (!model) return model.error();

@@ -2,7 +2,6 @@
 
 #include <stb_image.h>
 #include <stb_image_write.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <system_error>
 
 #include "file_bytes.h"
+#include "fur/file.h"
 
 namespace fur {
 namespace {
@@ -30,32 +30,6 @@ void AppendBytes(void* context, void* data, int size) {
   auto* out = static_cast<std::vector<uint8_t>*>(context);
   const auto* bytes = static_cast<const uint8_t*>(data);
   out->insert(out->end(), bytes, bytes + size);
-}
-
-// The process id keeps two programs that write the same target apart.
-std::filesystem::path TemporaryBeside(const std::filesystem::path& file) {
-  return file.parent_path() / ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
-}
-
-bool WriteBytes(const std::filesystem::path& file, std::span<const uint8_t> bytes) {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();  // a full disk may show only here
-  return !out.fail();
-}
-
-Result<Done> ReplaceFile(const std::filesystem::path& file, std::span<const uint8_t> bytes) {
-  const std::filesystem::path temporary = TemporaryBeside(file);
-  std::error_code ignored;
-  if (!WriteBytes(temporary, bytes)) {
-    std::filesystem::remove(temporary, ignored);
-    return Error{ErrorCode::OutputFailed, file.string() + ": cannot be written; check the folder and the free space"};
-  }
-  std::error_code failed;
-  std::filesystem::rename(temporary, file, failed);
-  if (!failed) return Done{};
-  std::filesystem::remove(temporary, ignored);
-  return Error{ErrorCode::OutputFailed, file.string() + ": cannot be replaced: " + failed.message()};
 }
 
 }  // namespace
@@ -117,7 +91,7 @@ Result<Done> WritePng(const std::filesystem::path& file, uint32_t width, uint32_
   if (!stbi_write_png_to_func(AppendBytes, &png, static_cast<int>(width), static_cast<int>(height), 4, rgba.data(),
                               stride))
     return Error{ErrorCode::OutputFailed, file.string() + ": the PNG could not be encoded (out of memory)"};
-  return ReplaceFile(file, png);
+  return WriteFile(file, png);
 }
 
 }  // namespace fur

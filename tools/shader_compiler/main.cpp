@@ -61,7 +61,6 @@ void Compile(const Options& options) {
   glsl.reflection.usesVertexId = usesVertexId;
   // After the GLSL is made: gl_InstanceID is without the base already.
   glsl.reflection.usesInstanceId = SubtractBase(module, spv::BuiltInInstanceIndex, spv::BuiltInBaseInstance);
-  if (vertex) WritePointSize(module);  // GL's default is 1 already
   AssignSets(module, options.stage);
   Validate(module, true);
   const std::vector<uint32_t> words = module.Words();

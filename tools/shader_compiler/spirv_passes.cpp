@@ -112,30 +112,6 @@ void SubtractAfterLoads(Module& module, uint32_t index, uint32_t base) {
   }
 }
 
-// The id of a type with these operands; a new one where there is none, since types must not be declared twice.
-uint32_t TypeId(Module& module, spv::Op op, const std::vector<uint32_t>& operands) {
-  for (const Instruction& i : module.code)
-    if (i.op == op && std::equal(i.words.begin() + 1, i.words.end(), operands.begin(), operands.end()))
-      return i.words[0];
-  Instruction type{op, {module.NewId()}};
-  type.words.insert(type.words.end(), operands.begin(), operands.end());
-  module.InsertGlobal(type);
-  return type.words[0];
-}
-
-// Stores `value` before every return of the entry point.
-void StoreAtReturns(Module& module, uint32_t variable, uint32_t value) {
-  uint32_t entry = 0, function = 0;
-  for (size_t i = 0; i < module.code.size(); ++i) {
-    const Instruction& in = module.code[i];
-    if (in.op == spv::OpEntryPoint) entry = in.words[1];
-    if (in.op == spv::OpFunction) function = in.words[1];
-    if (in.op != spv::OpReturn || function != entry) continue;
-    module.code.insert(module.code.begin() + ptrdiff_t(i), {spv::OpStore, {variable, value}});
-    ++i;
-  }
-}
-
 uint32_t SetOfBinding(uint32_t binding, rhi::Stage stage) {
   if (binding < rhi::kVkTextureBinding) return rhi::kVkConstantSet;
   if (binding >= rhi::kVkUavBinding) return rhi::kVkUavSet;
@@ -206,18 +182,6 @@ bool SubtractBase(Module& module, spv::BuiltIn index, spv::BuiltIn base) {
   module.InsertCapability(spv::CapabilityDrawParameters);
   SubtractAfterLoads(module, *variable, baseVariable);
   return true;
-}
-
-void WritePointSize(Module& module) {
-  constexpr uint32_t kOne = 0x3F800000;  // 1.0f
-  const uint32_t floatType = TypeId(module, spv::OpTypeFloat, {32});
-  const uint32_t pointer = TypeId(module, spv::OpTypePointer, {spv::StorageClassOutput, floatType});
-  const uint32_t one = module.NewId(), variable = module.NewId();
-  module.InsertDecoration({spv::OpDecorate, {variable, spv::DecorationBuiltIn, spv::BuiltInPointSize}});
-  module.InsertGlobal({spv::OpConstant, {floatType, one, kOne}});
-  module.InsertGlobal({spv::OpVariable, {pointer, variable, spv::StorageClassOutput}});
-  module.AddToInterface(variable);
-  StoreAtReturns(module, variable, one);
 }
 
 void AssignSets(Module& module, rhi::Stage stage) {

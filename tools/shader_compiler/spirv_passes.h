@@ -26,9 +26,6 @@ void RelaxImageFormats(Module&);
 // Turns each load of `index` into index - base. False when the shader does not read it.
 bool SubtractBase(Module&, spv::BuiltIn index, spv::BuiltIn base);
 
-// HLSL cannot write the size of a point, and Vulkan leaves it undefined unless the vertex shader does: stores 1.
-void WritePointSize(Module&);
-
 // The descriptor sets of rhi/shader.h, from the bindings. Throws where the HLSL names a space.
 void AssignSets(Module&, rhi::Stage);
 
