@@ -19,7 +19,7 @@ fi
 
 pictures=(out/demo.vulkan.png out/demo.gl.png)
 rm -f "${pictures[@]}"  # so that old pictures are not taken for new ones
-build/release/bin/fur render --backend both -o out/demo.png --size 1280x720 "$@"
+build/release/bin/fur render --backend both -o out/demo.png --size 1280x720 --samples 4 "$@"
 for picture in "${pictures[@]}"; do
   if [[ ! -s "$picture" ]]; then
     echo "demo: the program did not write $picture" >&2
