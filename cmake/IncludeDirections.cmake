@@ -14,11 +14,15 @@ function(fur_check_includes target)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.h" "${CMAKE_CURRENT_SOURCE_DIR}/*.hpp"
        "${CMAKE_CURRENT_SOURCE_DIR}/*.inl" "${CMAKE_CURRENT_SOURCE_DIR}/*.c" "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   set(stamp "${CMAKE_CURRENT_BINARY_DIR}/${target}_includes.stamp")
+  # The list is a dependency too: a file that is new here may be older than the stamp.
+  set(list "${CMAKE_CURRENT_BINARY_DIR}/${target}_includes.txt")
+  list(JOIN files "\n" content)
+  file(CONFIGURE OUTPUT "${list}" CONTENT "${content}\n" @ONLY)
   add_custom_command(
     OUTPUT "${stamp}"
     COMMAND sh "${FUR_CHECK_INCLUDES_SCRIPT}" "${target}" "${CMAKE_CURRENT_SOURCE_DIR}" ${ARG_FORBID}
     COMMAND "${CMAKE_COMMAND}" -E touch "${stamp}"
-    DEPENDS ${files} "${FUR_CHECK_INCLUDES_SCRIPT}"
+    DEPENDS ${files} "${list}" "${FUR_CHECK_INCLUDES_SCRIPT}"
     COMMENT "Checking the include directions of ${target}"
     VERBATIM)
   add_custom_target(${target}_includes DEPENDS "${stamp}")

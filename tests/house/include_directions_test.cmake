@@ -13,6 +13,8 @@ fur_check_includes(rhi FORBID rhi_vulkan volk)
 ")
 
 function(build expected_output)
+  # Past the file system's clock tick, so that what was written is newer than what was built.
+  execute_process(COMMAND "${CMAKE_COMMAND}" -E sleep 0.05)
   execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" RESULT_VARIABLE status OUTPUT_VARIABLE output
                   ERROR_VARIABLE output)
   if(expected_output STREQUAL "" AND NOT status EQUAL 0)
@@ -40,3 +42,10 @@ file(WRITE "${WORK}/rhi/src/types.cpp" "#include <vector>\n")
 build("")
 file(WRITE "${WORK}/rhi/include/rhi/new.h" "# include <volk.h>\n")
 build("rhi/include/rhi/new.h:1: error: rhi must not include volk (docs/architecture.md)")
+file(REMOVE "${WORK}/rhi/include/rhi/new.h")
+build("")
+# A file that is older than everything built, as one that was moved here.
+file(WRITE "${WORK}/moved.h" "#include <volk.h>\n")
+execute_process(COMMAND touch -d "2001-01-01" "${WORK}/moved.h")
+file(RENAME "${WORK}/moved.h" "${WORK}/rhi/include/rhi/moved.h")
+build("rhi/include/rhi/moved.h:1: error: rhi must not include volk (docs/architecture.md)")
