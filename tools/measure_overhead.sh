@@ -3,7 +3,8 @@
 # thread (callgrind; 10,000 one-pixel triangles, 32 bytes of constants each; recording and submission), and the time of a
 # frame. Instructions are exact enough to gate; times are only reported.
 # Usage: tools/measure_overhead.sh [--gate] [PROGRAM]
-#   --gate   no times; exit 1 when the RHI needs more than 1.05 times the instructions with a switch every 100 draws
+#   --gate   only the switch every 100 draws, no times; exit 1 when the RHI needs more than 1.05 times the
+#            instructions
 set -euo pipefail
 gate=0
 if [ "${1:-}" = --gate ]; then
@@ -36,8 +37,11 @@ run() {
 
 # count MODE: instructions of one frame in each of the two measured functions, by the thread that calls them.
 count() {
+  local only=()
+  [ "$gate" = 0 ] || only=(every-100)
   if ! run "$1" valgrind --tool=callgrind --separate-threads=yes --toggle-collect=rhi_overhead_every_100 \
-    --toggle-collect=rhi_overhead_every_draw --callgrind-out-file="$scratch/$1" "$program" "$1" 1 >"$scratch/$1.log" 2>&1; then
+    --toggle-collect=rhi_overhead_every_draw --callgrind-out-file="$scratch/$1" "$program" "$1" 1 "${only[@]}" \
+    >"$scratch/$1.log" 2>&1; then
     echo "measure_overhead: $1 failed under valgrind:" >&2
     tail -n 20 "$scratch/$1.log" >&2
     return 1
@@ -77,13 +81,14 @@ echo "instructions for each draw on the calling thread"
 printf '%-7s %-22s %9s %9s %7s\n' API switch raw rhi ratio
 for api in vulkan gl; do
   row $api "every 100 draws" rhi_overhead_every_100
-  row $api "every draw" rhi_overhead_every_draw
+  [ "$gate" = 1 ] || row $api "every draw" rhi_overhead_every_draw
 done
 
 # Both ways must have drawn the same.
 for api in vulkan gl; do
-  [ $api = gl ] && [ "$gate" = 1 ] && continue
-  for mode in raw-$api rhi-$api; do LP_NUM_THREADS=1 LIBGL_ALWAYS_SOFTWARE=1 "$program" $mode 1 | grep picture >"$scratch/$mode.picture"; done
+  for mode in raw-$api rhi-$api; do
+    LIBGL_ALWAYS_SOFTWARE=1 "$program" $mode 1 every-100 | grep picture >"$scratch/$mode.picture"
+  done
   if ! cmp -s "$scratch/raw-$api.picture" "$scratch/rhi-$api.picture"; then
     echo "measure_overhead: raw-$api and rhi-$api draw different pictures; the comparison means nothing" >&2
     exit 1
@@ -92,7 +97,7 @@ done
 
 if [ "$gate" = 0 ]; then
   for ((i = 0; i < rounds; i++)); do
-    for mode in $modes; do run $mode "$program" $mode 9 >>"$scratch/$mode.times"; done
+    for mode in $modes; do run $mode "$program" $mode 25 >>"$scratch/$mode.times"; done
   done
   echo
   echo "milliseconds of a frame (recording, submission and waiting): median of $rounds interleaved runs, [least, most]"

@@ -109,6 +109,37 @@ Status CheckTextureDesc(TextureDesc* d, const SubresourceData* init, const Caps&
   return CheckTextureSamples(*d, caps, log);
 }
 
+Status CheckSwapChainDesc(const SwapChainDesc& d, const Caps& caps, const MessageLog& log) {
+  if (!caps.swapChain)
+    return Refuse(log, Status::Unsupported, MsgCode::CapMissing, "",
+                  "this device has no swap chains (Caps::swapChain); make it with DeviceDesc::nativeDisplay set to the "
+                  "X11 Display*, on a driver that can present");
+  if (!d.nativeWindow) return Invalid(log, "", "a swap chain needs SwapChainDesc::nativeWindow, the X11 Window");
+  if (d.width == 0 || d.height == 0)
+    return Invalid(log, "", "a swap chain needs width and height of at least 1; Resize(0, 0) says that it is minimised");
+  switch (d.format) {
+    case Format::RGBA8_UNorm:
+    case Format::RGBA8_UNorm_sRGB:
+    case Format::BGRA8_UNorm:
+    case Format::BGRA8_UNorm_sRGB:
+    case Format::R10G10B10A2_UNorm:
+    case Format::RGBA16_Float: return Status::Ok;
+    default:
+      log.Report(Severity::Error, MsgCode::CapMissing, "",
+                 "%s cannot be shown; take RGBA8 or BGRA8 (also _sRGB), R10G10B10A2_UNorm or RGBA16_Float",
+                 ToString(d.format));
+      return Status::Unsupported;
+  }
+}
+
+TextureDesc BackBufferDesc(uint32_t width, uint32_t height, Format format) {
+  return {.width = width,
+          .height = height,
+          .format = format,
+          .bind = Bind::RenderTarget | Bind::ShaderResource,
+          .name = "back buffer"};
+}
+
 Status ResolveTextureView(const TextureDesc& d, const ViewDesc* in, Bind need, ViewDesc* out, const MessageLog& log) {
   ViewDesc v = in ? *in : ViewDesc{};
   const uint32_t slices = SliceCount(d);

@@ -74,6 +74,7 @@ const char* ToString(Status status) {
     case Status::DeviceLost: return "device lost";
     case Status::StillDrawing: return "still drawing";
     case Status::InternalError: return "internal error";
+    case Status::SurfaceLost: return "surface lost";
   }
   return "unknown status";
 }
@@ -123,23 +124,35 @@ const char* ToString(MsgCode code) {
     case MsgCode::ShaderRejected: return "ShaderRejected";
     case MsgCode::LayoutMismatch: return "LayoutMismatch";
     case MsgCode::ImmutableWrite: return "ImmutableWrite";
+    case MsgCode::LiveObjects: return "LiveObjects";
     case MsgCode::TargetStillBoundAsInput: return "TargetStillBoundAsInput";
     case MsgCode::InputStillBoundAsTarget: return "InputStillBoundAsTarget";
     case MsgCode::SlotOutOfRange: return "SlotOutOfRange";
     case MsgCode::WrongBindFlag: return "WrongBindFlag";
     case MsgCode::WrongStage: return "WrongStage";
+    case MsgCode::ForeignObject: return "ForeignObject";
     case MsgCode::NoVertexShader: return "NoVertexShader";
     case MsgCode::NoTarget: return "NoTarget";
     case MsgCode::TargetsDiffer: return "TargetsDiffer";
     case MsgCode::NothingBound: return "NothingBound";
     case MsgCode::TopologyMismatch: return "TopologyMismatch";
     case MsgCode::IndexBufferMissing: return "IndexBufferMissing";
+    case MsgCode::ViewMismatch: return "ViewMismatch";
+    case MsgCode::StrideMismatch: return "StrideMismatch";
+    case MsgCode::ConstantsTooSmall: return "ConstantsTooSmall";
+    case MsgCode::ViewportOutside: return "ViewportOutside";
     case MsgCode::MapMode: return "MapMode";
     case MsgCode::MapTwice: return "MapTwice";
     case MsgCode::OutOfBounds: return "OutOfBounds";
     case MsgCode::SubresourceOutOfRange: return "SubresourceOutOfRange";
     case MsgCode::FormatMismatch: return "FormatMismatch";
+    case MsgCode::MappedInUse: return "MappedInUse";
+    case MsgCode::MapOpen: return "MapOpen";
+    case MsgCode::PitchTooSmall: return "PitchTooSmall";
     case MsgCode::QueryOrder: return "QueryOrder";
+    case MsgCode::QueryOpen: return "QueryOpen";
+    case MsgCode::QueryEmpty: return "QueryEmpty";
+    case MsgCode::EventOpen: return "EventOpen";
     case MsgCode::SurfaceLost: return "SurfaceLost";
     case MsgCode::ApiValidation: return "ApiValidation";
     case MsgCode::DeviceLost: return "DeviceLost";

@@ -44,8 +44,8 @@ void SetExtensionCaps(Caps* caps) {
   const auto has = [](const char* name) { return epoxy_has_gl_extension(name); };
   caps->depthBiasClamp = epoxy_gl_version() >= 46 || has("GL_ARB_polygon_offset_clamp");
   caps->pipelineStatistics = epoxy_gl_version() >= 46 || has("GL_ARB_pipeline_statistics_query");
-  caps->samplerAnisotropy = epoxy_gl_version() >= 46 || has("GL_ARB_texture_filter_anisotropic") ||
-                            has("GL_EXT_texture_filter_anisotropic");
+  caps->samplerAnisotropy =
+      epoxy_gl_version() >= 46 || has("GL_ARB_texture_filter_anisotropic") || has("GL_EXT_texture_filter_anisotropic");
   caps->textureCompressionBC = has("GL_EXT_texture_compression_s3tc");  // BC5 and BC7 are core
 }
 

@@ -21,6 +21,15 @@ enum OwnDirty : uint32_t {
   DirtyConstantSlot = 1u << 28,  // << slot: the slot's buffer has new contents
 };
 
+// What Present shows, scaled where the window has another size.
+struct WindowPicture {
+  void* window;        // the X11 Window
+  void* surface;       // of EglContext
+  GLuint framebuffer;  // the picture, row 0 on top
+  uint32_t width, height;
+  int swapInterval;
+};
+
 class Context final : public backend::ContextBase {
  public:
   Context(IDevice& device, const CorePtr& core, const DeviceDesc& desc);
@@ -73,6 +82,7 @@ class Context final : public backend::ContextBase {
   Status ReadBack(ITexture*, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch);
   Status ReadBack(IBuffer*, uint32_t offset, uint32_t size, void* out);
   Status WaitIdle();
+  bool ShowInWindow(const WindowPicture&);  // false: the window is gone
   Status Precache(const PipelineKeyDesc&);
   Stats GetStats(bool reset);
 
@@ -128,7 +138,8 @@ class Context final : public backend::ContextBase {
     TexelBlock block;
   };
   void UpdateBuffer(Buffer&, const Box*, const void* data);
-  void UpdateTexture(Texture&, uint32_t subresource, const Box*, const void* data, uint32_t rowPitch, uint32_t slicePitch);
+  void UpdateTexture(Texture&, uint32_t subresource, const Box*, const void* data, uint32_t rowPitch,
+                     uint32_t slicePitch);
   void CopyBuffer(Buffer& dst, uint32_t at, Buffer& src, const Box*);
   void CopyTexture(Texture& dst, uint32_t dstSub, uint32_t x, uint32_t y, uint32_t z, Texture& src, uint32_t srcSub,
                    const Box*);
@@ -170,7 +181,7 @@ class Context final : public backend::ContextBase {
   const Framebuffer* framebuffer_ = nullptr;
   const Program* program_ = nullptr;
 
-  VertexArray emptyArray_;  // for draws without an input layout
+  VertexArray emptyArray_;    // for draws without an input layout
   int64_t firstVertex_ = -1;  // what block kGlDrawParametersBlock holds; -1: unknown
   GLuint indirectFirst_ = 0;  // its buffer for indirect draws
   GLuint scratchIndices_ = 0;

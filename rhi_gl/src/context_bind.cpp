@@ -94,11 +94,13 @@ void Context::BindPair(uint32_t unit, Stage stage, const Shader& shader, uint32_
 
 void Context::ReportUnbound(Stage stage, const ShaderResource& declared, bool other) {
   if (other) {
-    ReportOnce(Severity::Error, MsgCode::FormatMismatch, "%s t%u: the view is of another kind than the shader's %s; it reads 0",
-               ToString(stage), declared.slot, declared.name);
+    ReportOnce(Severity::Error, MsgCode::FormatMismatch,
+               "%s t%u: the view is of another kind than the shader's %s; it reads 0", ToString(stage), declared.slot,
+               declared.name);
   } else {
-    ReportOnce(Severity::Warning, MsgCode::NothingBound, "%s t%u: nothing is bound where the shader reads %s; it reads 0",
-               ToString(stage), declared.slot, declared.name);
+    ReportOnce(Severity::Warning, MsgCode::NothingBound,
+               "%s t%u: nothing is bound where the shader reads %s; it reads 0", ToString(stage), declared.slot,
+               declared.name);
   }
 }
 

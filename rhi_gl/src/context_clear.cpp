@@ -120,8 +120,7 @@ void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITextur
 
 void Context::GenerateMips(IShaderResourceView* target) {
   const auto* view = static_cast<const ShaderResourceView*>(target);
-  if (!view || !view->texture)
-    return Refuse(MsgCode::InvalidDesc, "", "GenerateMips", "it needs a view of a texture");
+  if (!view || !view->texture) return Refuse(MsgCode::InvalidDesc, "", "GenerateMips", "it needs a view of a texture");
   const TextureDesc& desc = view->texture->Desc();
   const FormatInfo& format = GetFormatInfo(desc.format);
   if (!(desc.bind & Bind::RenderTarget))

@@ -151,7 +151,8 @@ void Context::CopyTexture(Texture& dst, uint32_t dstSub, uint32_t x, uint32_t y,
     return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a texture copy",
                   "a box is empty, beyond its subresource, or not on whole blocks");
   if (&dst == &src && dstSub == srcSub)
-    return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a texture copy", "source and destination are one subresource");
+    return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a texture copy",
+                  "source and destination are one subresource");
   Settle();
   CopyBlock(to, from);
 }

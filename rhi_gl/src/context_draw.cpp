@@ -113,8 +113,8 @@ void Context::DrawInstanced(uint32_t vertexCount, uint32_t instanceCount, uint32
                                     startInstance);
 }
 
-void Context::DrawIndexedInstanced(uint32_t indexCount, uint32_t instanceCount, uint32_t startIndex,
-                                   int32_t baseVertex, uint32_t startInstance) {
+void Context::DrawIndexedInstanced(uint32_t indexCount, uint32_t instanceCount, uint32_t startIndex, int32_t baseVertex,
+                                   uint32_t startInstance) {
   if (!PrepareIndexed()) return;
   ++stats_.draws;
   glDrawElementsInstancedBaseVertexBaseInstance(mode_, GLsizei(indexCount), indexType_, IndexPointer(startIndex),
@@ -282,8 +282,9 @@ void Context::ApplyVertexArray() {
     const VertexBufferBinding& b = state_.vertexBuffers[slot];
     const auto* buffer = static_cast<const Buffer*>(b.buffer.get());
     // What is not bound reads 0: from the buffer of zeros, without a stride.
-    const VertexArray::BoundBuffer wanted = buffer ? VertexArray::BoundBuffer{buffer->uid, buffer->offset + b.offset, b.stride}
-                                                   : VertexArray::BoundBuffer{0, 0, 0};
+    const VertexArray::BoundBuffer wanted =
+        buffer ? VertexArray::BoundBuffer{buffer->uid, buffer->offset + b.offset, b.stride}
+               : VertexArray::BoundBuffer{0, 0, 0};
     if (array.buffers[slot] == wanted) continue;
     array.buffers[slot] = wanted;
     glVertexArrayVertexBuffer(array.name, slot, buffer ? buffer->name : core_.zeroBuffer, GLintptr(wanted.offset),

@@ -109,8 +109,8 @@ Status Context::Precache(const PipelineKeyDesc& key) {
   Enter();
   const auto *vs = static_cast<const Shader*>(key.vs), *gs = static_cast<const Shader*>(key.gs),
              *ps = static_cast<const Shader*>(key.ps);
-  const bool fit = vs && vs->stage == Stage::Vertex && (!gs || gs->stage == Stage::Geometry) &&
-                   (!ps || ps->stage == Stage::Pixel);
+  const bool fit =
+      vs && vs->stage == Stage::Vertex && (!gs || gs->stage == Stage::Geometry) && (!ps || ps->stage == Stage::Pixel);
   if (!fit) {
     Refuse(MsgCode::NoVertexShader, "", "PrecachePipeline", "it needs a vertex shader, and each shader in its place");
     return Status::InvalidArg;

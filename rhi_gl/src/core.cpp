@@ -35,8 +35,7 @@ void ClearErrors() {
 
 bool FrameClock::Retire(bool wait) {
   const Pending& p = pending_.front();
-  const GLenum result =
-      glClientWaitSync(p.fence, wait ? GL_SYNC_FLUSH_COMMANDS_BIT : 0u, wait ? kFenceTimeoutNs : 0);
+  const GLenum result = glClientWaitSync(p.fence, wait ? GL_SYNC_FLUSH_COMMANDS_BIT : 0u, wait ? kFenceTimeoutNs : 0);
   if (result != GL_ALREADY_SIGNALED && result != GL_CONDITION_SATISFIED) return false;
   completed_ = p.frame;
   glDeleteSync(p.fence);
@@ -62,11 +61,7 @@ void FrameClock::Finished() {
 }
 
 Core::Core(const DeviceDesc& desc, const Caps& adapterCaps)
-    : log(desc.sink),
-      caps(adapterCaps),
-      framebuffers(*this),
-      programs(*this),
-      validation(desc.apiValidation) {}
+    : log(desc.sink), caps(adapterCaps), framebuffers(*this), programs(*this), validation(desc.apiValidation) {}
 
 Core::~Core() {
   Enter();
@@ -98,8 +93,9 @@ void Core::Enter() {
   if (egl.IsCurrent()) return;
   ForgetThread();
   if (!egl.MakeCurrent())
-    log.Report(Severity::Error, MsgCode::DeviceLost, "",
-               "the GL context cannot be made current: it is still current on another thread; call WaitIdle there first");
+    log.Report(
+        Severity::Error, MsgCode::DeviceLost, "",
+        "the GL context cannot be made current: it is still current on another thread; call WaitIdle there first");
   threadOwner = weak_from_this();
 }
 

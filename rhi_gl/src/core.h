@@ -103,7 +103,7 @@ class Core : public std::enable_shared_from_this<Core> {
   backend::Interner<DepthStencilDesc, DepthStencilState> depthStencilStates;
   backend::Interner<RasterizerDesc, RasterizerState> rasterizerStates;
   backend::Interner<SamplerDesc, SamplerState> samplerStates;
-  GLuint zeroBuffer = 0;  // kMaxConstantBufferBytes of zeros: what is not bound reads 0
+  GLuint zeroBuffer = 0;       // kMaxConstantBufferBytes of zeros: what is not bound reads 0
   Context* context = nullptr;  // of the device; null before and after it
   bool validation = false;
   bool allocating = false;  // GL_OUT_OF_MEMORY is expected and reported by us

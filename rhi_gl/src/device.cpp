@@ -2,6 +2,7 @@
 #include "context.h"
 #include "formats.h"
 #include "rhi_gl/rhi_gl.h"
+#include "swap_chain.h"
 
 namespace rhi_gl {
 namespace {
@@ -69,7 +70,10 @@ class Device final : public Object<IDevice> {
     *out = nullptr;
     return Query::Create(core_, desc, out);
   }
-  Status CreateSwapChain(const SwapChainDesc&, Ref<ISwapChain>* out) override;
+  Status CreateSwapChain(const SwapChainDesc& desc, Ref<ISwapChain>* out) override {
+    *out = nullptr;
+    return SwapChain::Create(core_, desc, out);
+  }
 
   Status PrecachePipeline(const PipelineKeyDesc& key) override { return context_->Precache(key); }
   size_t GetPipelineCacheBlob(void*, size_t) override { return 0; }
@@ -104,12 +108,6 @@ Device::~Device() {
 uint32_t Device::CheckMultisample(Format format, uint32_t samples) const {
   core_->Enter();
   return samples > 0 && SupportsSamples(format, samples) ? 1 : 0;
-}
-
-Status Device::CreateSwapChain(const SwapChainDesc&, Ref<ISwapChain>* out) {
-  *out = nullptr;
-  core_->log.Report(Severity::Error, MsgCode::CapMissing, "", "the GL backend has no swap chain yet; see Caps::swapChain");
-  return Status::Unsupported;
 }
 
 // ------------------------------------------------------------------------------------------------------ the adapters
@@ -149,6 +147,7 @@ CorePtr TryPlace(const EglPlace& place, const DeviceDesc& desc, std::string* why
   }
   core->caps = QueryCaps();
   core->caps.software = core->caps.software || place.software;
+  core->caps.swapChain = desc.nativeDisplay != nullptr;
   core->limits = QueryLimits();
   core->Start();
   return core;

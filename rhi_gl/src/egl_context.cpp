@@ -3,8 +3,12 @@
 #include <epoxy/egl.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstring>
 #include <mutex>
+
+#include "xlib_window.h"
 
 namespace rhi_gl {
 namespace {
@@ -61,8 +65,8 @@ EGLContext TryContext(EGLDisplay display, EGLConfig config, const EglContextDesc
     attributes.insert(attributes.end(),
                       {EGL_CONTEXT_MAJOR_VERSION_KHR, desc.major, EGL_CONTEXT_MINOR_VERSION_KHR, desc.minor,
                        EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR});
-  const EGLint flags = (desc.debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0) |
-                       (robust ? EGL_CONTEXT_OPENGL_ROBUST_ACCESS_BIT_KHR : 0);
+  const EGLint flags =
+      (desc.debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0) | (robust ? EGL_CONTEXT_OPENGL_ROBUST_ACCESS_BIT_KHR : 0);
   if (flags != 0) attributes.insert(attributes.end(), {EGL_CONTEXT_FLAGS_KHR, flags});
   if (notify)
     attributes.insert(attributes.end(),
@@ -71,12 +75,49 @@ EGLContext TryContext(EGLDisplay display, EGLConfig config, const EglContextDesc
   return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
 }
 
-// EGL_NO_CONFIG_KHR where it is offered (its value is null), else the first config of desktop GL.
-bool ChooseConfig(EGLDisplay display, EGLConfig* config) {
+// Configs that can draw to windows, those without alpha first: an opaque window has none, and where a window has one, a
+// compositor would blend with it. None has a depth buffer or samples if it can be helped: we draw elsewhere.
+std::vector<EGLConfig> WindowConfigs(EGLDisplay display) {
+  const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                           EGL_WINDOW_BIT,
+                           EGL_RENDERABLE_TYPE,
+                           EGL_OPENGL_BIT,
+                           EGL_RED_SIZE,
+                           8,
+                           EGL_GREEN_SIZE,
+                           8,
+                           EGL_BLUE_SIZE,
+                           8,
+                           EGL_NONE};
+  EGLint count = 0;
+  if (!eglChooseConfig(display, wanted, nullptr, 0, &count) || count <= 0) return {};
+  std::vector<EGLConfig> configs(static_cast<size_t>(count));
+  if (!eglChooseConfig(display, wanted, configs.data(), count, &count)) return {};
+  configs.resize(static_cast<size_t>(std::max(count, 0)));
+  const auto cost = [&](EGLConfig config) {
+    const auto get = [&](EGLint what) {
+      EGLint value = 0;
+      eglGetConfigAttrib(display, config, what, &value);
+      return value;
+    };
+    // More than 8 bits, which EGL sorts first, would show our 8 bits too, but slowly.
+    return std::array<EGLint, 3>{get(EGL_ALPHA_SIZE), get(EGL_RED_SIZE), get(EGL_DEPTH_SIZE) + get(EGL_SAMPLES)};
+  };
+  std::stable_sort(configs.begin(), configs.end(), [&](EGLConfig a, EGLConfig b) { return cost(a) < cost(b); });
+  return configs;
+}
+
+// EGL_NO_CONFIG_KHR where it is offered (its value is null), else the first config of desktop GL that suits the place.
+bool ChooseConfig(EGLDisplay display, bool windows, EGLConfig* config) {
   *config = nullptr;
   const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
   if (HasExtension(extensions, "EGL_KHR_no_config_context") || HasExtension(extensions, "EGL_MESA_configless_context"))
     return true;
+  if (windows) {
+    const std::vector<EGLConfig> configs = WindowConfigs(display);
+    if (!configs.empty()) *config = configs.front();
+    return !configs.empty();
+  }
   const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLint count = 0;
   return eglChooseConfig(display, wanted, config, 1, &count) && count == 1;
@@ -106,6 +147,7 @@ bool EglContext::OpenDisplay(const EglPlace& place, std::string* why) {
   }
   display_ = display;
   terminate_ = place.platform == EGL_PLATFORM_X11_EXT;
+  native_ = terminate_ ? place.native : nullptr;
   if (terminate_) SharedNativeDisplays().Retain(display);
   const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
   const bool fit =
@@ -115,17 +157,16 @@ bool EglContext::OpenDisplay(const EglPlace& place, std::string* why) {
 }
 
 bool EglContext::Create(const EglPlace& place, const EglContextDesc& desc, std::string* why) {
-  EGLConfig config = nullptr;
   if (!OpenDisplay(place, why)) return false;
-  if (!eglBindAPI(EGL_OPENGL_API) || !ChooseConfig(display_, &config)) {
+  if (!eglBindAPI(EGL_OPENGL_API) || !ChooseConfig(display_, terminate_, &config_)) {
     *why = "EGL offers no desktop OpenGL";
     return false;
   }
   // Robust access makes reads out of bounds give 0, as Direct3D's do; what a driver refuses is left out.
-  context_ = TryContext(display_, config, desc, true, true);
-  if (!context_) context_ = TryContext(display_, config, desc, true, false);
+  context_ = TryContext(display_, config_, desc, true, true);
+  if (!context_) context_ = TryContext(display_, config_, desc, true, false);
   robust_ = context_ != nullptr;
-  if (!context_) context_ = TryContext(display_, config, desc, false, false);
+  if (!context_) context_ = TryContext(display_, config_, desc, false, false);
   if (context_ && MakeCurrent()) return true;
   *why = "EGL refused a context of OpenGL " + std::to_string(desc.major) + "." + std::to_string(desc.minor) + " core";
   return false;
@@ -137,7 +178,7 @@ void EglContext::Destroy() {
     eglDestroyContext(display_, context_);
   }
   if (terminate_) SharedNativeDisplays().Release(display_);
-  display_ = context_ = nullptr;
+  display_ = context_ = config_ = nullptr;
   terminate_ = false;
 }
 
@@ -149,5 +190,39 @@ bool EglContext::MakeCurrent() {
 void EglContext::Release() { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
 bool EglContext::IsCurrent() const { return eglGetCurrentContext() == context_; }
+
+void* EglContext::CreateWindowSurface(void* window, std::string* why) {
+  unsigned long id = reinterpret_cast<uintptr_t>(window);
+  XlibWindowInfo info;
+  if (!QueryXlibWindow(native_, id, &info)) {
+    *why = "there is no such window on nativeDisplay";
+    return nullptr;
+  }
+  std::vector<EGLConfig> configs = config_ ? std::vector<EGLConfig>{config_} : WindowConfigs(display_);
+  // A config of another visual than the window's may be refused now, or end in an X error later.
+  std::stable_partition(configs.begin(), configs.end(), [&](EGLConfig config) {
+    EGLint visual = 0;
+    eglGetConfigAttrib(display_, config, EGL_NATIVE_VISUAL_ID, &visual);
+    return static_cast<unsigned long>(visual) == info.visual;
+  });
+  for (EGLConfig config : configs)  // X11's platform takes a pointer to the Window
+    if (EGLSurface surface = eglCreatePlatformWindowSurfaceEXT(display_, config, &id, nullptr)) return surface;
+  char text[128];
+  std::snprintf(text, sizeof text, "EGL cannot draw to this window (error 0x%04x, %zu configs tried)",
+                unsigned(eglGetError()), configs.size());
+  *why = text;
+  return nullptr;
+}
+
+void EglContext::DestroySurface(void* surface) { eglDestroySurface(display_, surface); }
+
+bool EglContext::MakeCurrentOn(void* surface) {
+  eglBindAPI(EGL_OPENGL_API);
+  return eglMakeCurrent(display_, surface, surface, context_) == EGL_TRUE;
+}
+
+void EglContext::SetSwapInterval(int interval) { eglSwapInterval(display_, interval); }
+
+bool EglContext::Swap(void* surface) { return eglSwapBuffers(display_, surface) == EGL_TRUE; }
 
 }  // namespace rhi_gl

@@ -37,13 +37,24 @@ class EglContext {
   bool MakeCurrent();
   void Release();  // no context is current on this thread afterwards
   bool IsCurrent() const;
+
+  // The picture of an X11 window, an EGLSurface. Null, with the reason in *why.
+  void* CreateWindowSurface(void* window, std::string* why);
+  void DestroySurface(void* surface);
+  // The context with the surface as its default framebuffer, until MakeCurrent. False: the window is gone.
+  bool MakeCurrentOn(void* surface);
+  void SetSwapInterval(int interval);              // of the surface that is current
+  bool Swap(void* surface);                        // false: the window is gone
+  void* NativeDisplay() const { return native_; }  // null: headless
   bool RobustAccess() const { return robust_; }
 
  private:
   bool OpenDisplay(const EglPlace&, std::string* why);
 
+  void* native_ = nullptr;   // X11 Display
   void* display_ = nullptr;  // EGLDisplay
   void* context_ = nullptr;  // EGLContext
+  void* config_ = nullptr;   // EGLConfig; null: the context goes with surfaces of any
   bool terminate_ = false;   // the display is counted and ends with its last context
   bool robust_ = false;
 };

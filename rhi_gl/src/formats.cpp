@@ -53,7 +53,8 @@ bool Query(GLenum internal, GLenum what) {
 FormatSupport BufferSupport(Format format) {
   FormatSupport s = FormatSupport::None;
   if (kGlFormats[size_t(format)].attribSize != 0) s = s | FormatSupport::Buffer | FormatSupport::VertexBuffer;
-  if (format == Format::R16_UInt || format == Format::R32_UInt) s = s | FormatSupport::Buffer | FormatSupport::IndexBuffer;
+  if (format == Format::R16_UInt || format == Format::R32_UInt)
+    s = s | FormatSupport::Buffer | FormatSupport::IndexBuffer;
   return s;
 }
 

@@ -8,10 +8,10 @@
 namespace rhi_gl {
 
 struct GlFormat {
-  GLenum internal = 0;      // sized internal format; BGRA lies in memory as RGBA and is swizzled on its way
-  GLenum layout = 0;        // format and type of texels in the caller's memory
+  GLenum internal = 0;  // sized internal format; BGRA lies in memory as RGBA and is swizzled on its way
+  GLenum layout = 0;    // format and type of texels in the caller's memory
   GLenum type = 0;
-  GLint attribSize = 0;     // components of a vertex element, or GL_BGRA; 0: not a vertex format
+  GLint attribSize = 0;  // components of a vertex element, or GL_BGRA; 0: not a vertex format
   GLenum attribType = 0;
   GLboolean normalized = GL_FALSE;
 };

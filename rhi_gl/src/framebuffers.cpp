@@ -14,9 +14,7 @@ GLenum AttachmentPoint(Format format, uint32_t colorIndex) {
 
 const TextureDesc& TextureOf(const ViewData& v) { return v.texture->Desc(); }
 
-Attachment AttachmentOf(const ViewData& v) {
-  return {v.name, v.target, v.desc.format, v.level, v.layer, v.layered};
-}
+Attachment AttachmentOf(const ViewData& v) { return {v.name, v.target, v.desc.format, v.level, v.layer, v.layered}; }
 
 // What all targets of one framebuffer must have in common.
 struct Extent {
@@ -37,8 +35,7 @@ std::string Describe(const Extent& e) {
 
 void SetDrawBuffers(GLuint framebuffer, const TargetSet& set) {
   std::array<GLenum, kMaxRenderTargets> buffers{};
-  for (uint32_t i = 0; i < set.colorCount; ++i)
-    buffers[i] = set.colors[i] ? GL_COLOR_ATTACHMENT0 + i : GLenum(GL_NONE);
+  for (uint32_t i = 0; i < set.colorCount; ++i) buffers[i] = set.colors[i] ? GL_COLOR_ATTACHMENT0 + i : GLenum(GL_NONE);
   if (set.colorCount == 0) {
     glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
   } else {
@@ -133,8 +130,8 @@ void BlitPair::Blit(const Attachment& from, uint32_t fromWidth, uint32_t fromHei
                     uint32_t toWidth, uint32_t toHeight, GLenum filter) {
   Attach(read_, 0, from);
   Attach(draw_, 0, to);
-  glBlitNamedFramebuffer(read_, draw_, 0, 0, GLint(fromWidth), GLint(fromHeight), 0, 0, GLint(toWidth),
-                         GLint(toHeight), GL_COLOR_BUFFER_BIT, filter);
+  glBlitNamedFramebuffer(read_, draw_, 0, 0, GLint(fromWidth), GLint(fromHeight), 0, 0, GLint(toWidth), GLint(toHeight),
+                         GL_COLOR_BUFFER_BIT, filter);
 }
 
 }  // namespace rhi_gl

@@ -1,5 +1,5 @@
-// The shadow of GL's state: each setter calls GL only where the value differs. Objects are known by their uids, which are
-// never used twice; GL's names are, so a name would not tell a new object from a dead one.
+// The shadow of GL's state: each setter calls GL only where the value differs. Objects are known by their uids, which
+// are never used twice; GL's names are, so a name would not tell a new object from a dead one.
 #pragma once
 
 #include <epoxy/gl.h>

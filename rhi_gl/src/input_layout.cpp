@@ -25,7 +25,8 @@ Status InputLayout::Create(const CorePtr& core, const InputElement* elements, ui
   const auto* shader = static_cast<Shader*>(vs);
   if (!shader || shader->stage != Stage::Vertex || count > kMaxVertexElements) {
     core->log.Report(Severity::Error, MsgCode::LayoutMismatch, "",
-                     "an input layout needs a vertex shader and at most %u elements (%u given)", kMaxVertexElements, count);
+                     "an input layout needs a vertex shader and at most %u elements (%u given)", kMaxVertexElements,
+                     count);
     return Status::InvalidArg;
   }
   core->Enter();
@@ -46,7 +47,9 @@ Status InputLayout::Create(const CorePtr& core, const InputElement* elements, ui
 InputLayout::~InputLayout() { core_->Discard(NameKind::VertexArray, array.name); }
 
 Status InputLayout::CheckElement(const InputElement& e) const {
-  const auto refuse = [&](Status s, const char* what) { return Mismatch(*core_, s, e.semantic, e.semanticIndex, what); };
+  const auto refuse = [&](Status s, const char* what) {
+    return Mismatch(*core_, s, e.semantic, e.semanticIndex, what);
+  };
   if (e.slot >= kMaxVertexBuffers) return refuse(Status::InvalidArg, "its slot is beyond the last vertex buffer slot");
   if (GetGlFormat(e.format).attribSize == 0)
     return refuse(Status::Unsupported, "its format is no vertex format; see CheckFormatSupport");

@@ -40,8 +40,8 @@ class ProgramCache {
   // `gs` and `ps` may be null. *made: it was not there yet.
   const Program& Get(const Shader* vs, const Shader* gs, const Shader* ps, bool* made);
 
-  // The code of this text, compiled now if it is new; null, and the driver's log, when it refuses. `lastStage`: no other
-  // stage stands between a vertex shader and the rasterizer (rhi/shader.h).
+  // The code of this text, compiled now if it is new; null, and the driver's log, when it refuses. `lastStage`: no
+  // other stage stands between a vertex shader and the rasterizer (rhi/shader.h).
   const ShaderCode* Compile(rhi::Stage, const char* glsl, bool lastStage, std::string* log);
 
  private:

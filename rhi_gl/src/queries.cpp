@@ -8,12 +8,15 @@ namespace rhi_gl {
 namespace {
 
 // In the order of rhi::PipelineStatistics.
-constexpr std::array<GLenum, Query::kMaxNames> kStatistics{
-    GL_VERTICES_SUBMITTED_ARB,          GL_PRIMITIVES_SUBMITTED_ARB,
-    GL_VERTEX_SHADER_INVOCATIONS_ARB,   GL_GEOMETRY_SHADER_INVOCATIONS,
-    GL_GEOMETRY_SHADER_PRIMITIVES_EMITTED_ARB, GL_CLIPPING_INPUT_PRIMITIVES_ARB,
-    GL_CLIPPING_OUTPUT_PRIMITIVES_ARB,  GL_FRAGMENT_SHADER_INVOCATIONS_ARB,
-    GL_COMPUTE_SHADER_INVOCATIONS_ARB};
+constexpr std::array<GLenum, Query::kMaxNames> kStatistics{GL_VERTICES_SUBMITTED_ARB,
+                                                           GL_PRIMITIVES_SUBMITTED_ARB,
+                                                           GL_VERTEX_SHADER_INVOCATIONS_ARB,
+                                                           GL_GEOMETRY_SHADER_INVOCATIONS,
+                                                           GL_GEOMETRY_SHADER_PRIMITIVES_EMITTED_ARB,
+                                                           GL_CLIPPING_INPUT_PRIMITIVES_ARB,
+                                                           GL_CLIPPING_OUTPUT_PRIMITIVES_ARB,
+                                                           GL_FRAGMENT_SHADER_INVOCATIONS_ARB,
+                                                           GL_COMPUTE_SHADER_INVOCATIONS_ARB};
 static_assert(sizeof(PipelineStatistics) == sizeof(uint64_t) * Query::kMaxNames);
 
 GLenum TargetOf(QueryType type, uint32_t i) {
@@ -163,7 +166,8 @@ Status Context::GetData(IQuery* query, void* data, uint32_t size, bool flush) {
   auto* q = static_cast<Query*>(query);
   Enter();
   if (!q || q->state != Query::State::Ended) {
-    log_.Report(Severity::Error, MsgCode::QueryOrder, q ? q->Name().c_str() : "", "GetData needs a query that was ended");
+    log_.Report(Severity::Error, MsgCode::QueryOrder, q ? q->Name().c_str() : "",
+                "GetData needs a query that was ended");
     return Status::InvalidArg;
   }
   if (data && size != q->ResultSize()) {

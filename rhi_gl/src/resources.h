@@ -54,8 +54,8 @@ class Buffer final : public Object<IBuffer> {
   uint64_t lastSlice = 0;  // the offset of the last slice that fits into a page
   Buffer *previousInPage = nullptr, *nextInPage = nullptr;
 
-  // The size that UpdateConstants serves in the short way, and the one register that shows the buffer: those of the last
-  // update. kNoQuickSize where there is no such register.
+  // The size that UpdateConstants serves in the short way, and the one register that shows the buffer: those of the
+  // last update. kNoQuickSize where there is no such register.
   uint32_t quickSize = kNoQuickSize, quickSlot = 0;
 
   bool mapped = false;
@@ -72,7 +72,7 @@ class Buffer final : public Object<IBuffer> {
   CorePtr core_;
   BufferDesc desc_;
   bool ringConstant_ = false;
-  GLuint own_ = 0;   // fixed storage, or a constant's home
+  GLuint own_ = 0;  // fixed storage, or a constant's home
   uint32_t ownUid_ = 0;
   std::deque<Version> idle_;
   std::vector<GLuint> chunks_;

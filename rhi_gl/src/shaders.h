@@ -16,13 +16,14 @@ class Shader final : public Object<IShader> {
   Stage stage;
   const char* glsl;  // the blob's text, which has static lifetime
   ShaderReflection reflection;
-  uint32_t inputMask = 0;                    // vertex: attribute locations
-  std::vector<const ShaderResource*> pairs;  // the texture of each of reflection.pairs
-  std::vector<const ShaderResource*> storage;  // structured t registers in the order of their storage blocks
+  uint32_t inputMask = 0;                       // vertex: attribute locations
+  std::vector<const ShaderResource*> pairs;     // the texture of each of reflection.pairs
+  std::vector<const ShaderResource*> storage;   // structured t registers in the order of their storage blocks
   std::vector<const ShaderResource*> writable;  // u registers
 
  private:
-  Shader(const CorePtr& core, const ShaderBlob& blob) : stage(blob.stage), glsl(blob.glsl), reflection(blob.reflection), core_(core) {}
+  Shader(const CorePtr& core, const ShaderBlob& blob)
+      : stage(blob.stage), glsl(blob.glsl), reflection(blob.reflection), core_(core) {}
   bool SortResources();
 
   CorePtr core_;

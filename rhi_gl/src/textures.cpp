@@ -33,8 +33,7 @@ Status CheckFormat(const Core& core, const TextureDesc& desc) {
 
 }  // namespace
 
-Texture::Texture(const CorePtr& core, const TextureDesc& desc)
-    : target(TargetOf(desc.dim)), core_(core), desc_(desc) {}
+Texture::Texture(const CorePtr& core, const TextureDesc& desc) : target(TargetOf(desc.dim)), core_(core), desc_(desc) {}
 
 Status Texture::Create(const CorePtr& core, const TextureDesc& wanted, const SubresourceData* init,
                        Ref<ITexture>* out) {

@@ -12,8 +12,8 @@ Status CheckAlignment(const Core& core, const BufferDesc& desc, const ViewDesc& 
   const uint64_t offset = uint64_t(v.firstElement) * desc.structureStride;
   if (offset % core.limits.storageAlignment == 0) return Status::Ok;
   core.log.Report(Severity::Error, MsgCode::CapMissing, desc.name,
-                  "the view starts at byte %llu; this adapter wants multiples of %u", static_cast<unsigned long long>(offset),
-                  core.limits.storageAlignment);
+                  "the view starts at byte %llu; this adapter wants multiples of %u",
+                  static_cast<unsigned long long>(offset), core.limits.storageAlignment);
   return Status::Unsupported;
 }
 
@@ -39,8 +39,8 @@ Status MakeBufferView(const CorePtr& core, Buffer* buffer, const ViewDesc* wante
 }
 
 void UseGlView(ViewData& v) {
-  v.name = MakeGlView(*v.texture, v.desc.format, v.desc.firstMip, v.desc.mipCount, v.desc.firstSlice,
-                      v.desc.sliceCount, &v.target);
+  v.name = MakeGlView(*v.texture, v.desc.format, v.desc.firstMip, v.desc.mipCount, v.desc.firstSlice, v.desc.sliceCount,
+                      &v.target);
   v.owned = true;
 }
 
@@ -127,8 +127,15 @@ Status CreateUnorderedAccessView(const CorePtr& core, IResource* resource, const
   Buffer* buffer = AsBuffer(resource);
   const Status s = buffer ? MakeBufferView(core, buffer, desc, Bind::UnorderedAccess, &view)
                           : MakeTextureView(core, AsTexture(resource), desc, Bind::UnorderedAccess, &view);
-  if (s == Status::Ok) *out = view;
-  return s;
+  if (s != Status::Ok) return s;
+  if (!buffer && GetFormatInfo(view->desc.format).sRGB) {
+    core->log.Report(Severity::Error, MsgCode::CapMissing, view->texture->Desc().name,
+                     "%s has no unordered access; view it as %s", ToString(view->desc.format),
+                     ToString(ToLinear(view->desc.format)));
+    return Status::Unsupported;
+  }
+  *out = view;
+  return Status::Ok;
 }
 
 Status CreateRenderTargetView(const CorePtr& core, ITexture* texture, const ViewDesc* desc,

@@ -191,6 +191,7 @@ Adapter DescribeAdapter(const Instance& instance, VkPhysicalDevice physical) {
   FillIdentity(a.caps, a.properties, driver);
   FillLimits(a.caps, a.properties.limits);
   a.caps.debugMarkers = instance.debugUtils;
+  a.caps.swapChain = instance.surfaces && a.Has(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   return a;
 }
 

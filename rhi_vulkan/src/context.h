@@ -1,7 +1,8 @@
 // The immediate context: records into the command buffer of the current submission.
 //
 // A pass (vkCmdBeginRendering) is begun by the first draw that needs it. Draw looks at the dirty bits: none set, it is
-// the call itself; only new constants, set 0 is bound again with new offsets; else PrepareDraw does the rest.
+// the call itself; only new constants, set 0 is bound again with new offsets; other shaders or blending as well,
+// SwitchPipeline; else PrepareDraw does the rest.
 #pragma once
 
 #include "barriers.h"
@@ -14,6 +15,12 @@
 namespace rhi_vulkan {
 
 class VulkanDevice;
+
+struct WindowImage {
+  VkImage image;
+  VkFormat format;
+  VkExtent2D extent;
+};
 
 // Command buffers and descriptor sets of one submission.
 struct Batch {
@@ -84,6 +91,9 @@ class Context final : public backend::ContextBase {
   Status ReadBuffer(Buffer&, uint32_t offset, uint32_t size, void* out);
   Status ReadTexture(Texture&, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch);
   Status Finish();  // submits and waits
+  Status SubmitAll(const PresentSync& = {});
+  // Brings a texture to an image of a window, scaled and converted where they differ, and submits.
+  Status WriteWindowImage(Texture& from, const WindowImage& to, const PresentSync&);
   Stats TakeStats(bool reset);
 
  private:
@@ -137,10 +147,11 @@ class Context final : public backend::ContextBase {
 
   // context_draw.cpp
   bool PrepareDraw();
+  bool SwitchPipeline();
   bool ReadyToDraw() {
     const uint32_t dirty = dirty_ & kDirtyDraw;
     if (dirty == 0) return true;
-    if (dirty != kDirtyOffsets) return PrepareDraw();
+    if (dirty != kDirtyOffsets) return ((dirty & ~kDirtySwitch) == 0 && SwitchPipeline()) || PrepareDraw();
     BindConstantOffsets();
     return true;
   }
@@ -238,6 +249,7 @@ class Context final : public backend::ContextBase {
 
   std::unique_ptr<Batch> batch_;
   std::deque<std::unique_ptr<Batch>> inFlight_;
+  std::vector<std::unique_ptr<Batch>> idle_;  // reset, to be used again
   std::deque<uint64_t> frames_;  // last serials of the frames in flight
   uint32_t framesInFlight_;
   NullResources null_;

@@ -19,4 +19,7 @@ inline constexpr uint32_t kDirtyPipeline = backend::DirtyLayout | backend::Dirty
                                            backend::DirtyRaster | backend::DirtyBlend | backend::DirtyBlendFactor |
                                            backend::DirtyTargets;
 
+// What changes most between the draws of a pass: Context::SwitchPipeline.
+inline constexpr uint32_t kDirtySwitch = backend::DirtyShaders | backend::DirtyBlend | kDirtyOffsets;
+
 }  // namespace rhi_vulkan

@@ -89,6 +89,32 @@ Buffer* Context::PrepareIndirect(IBuffer* args, uint32_t offset, uint32_t size) 
   return buffer;
 }
 
+// Other shaders or blending, and nothing else: with the same pipeline layout the shaders read the same registers, so
+// neither barriers nor sets change. False: PrepareDraw must look.
+bool Context::SwitchPipeline() {
+  const auto shader = [&](Stage s) { return static_cast<const Shader*>(state_.shaders[size_t(s)].get()); };
+  const Shader *vs = shader(Stage::Vertex), *gs = shader(Stage::Geometry), *ps = shader(Stage::Pixel);
+  if (!pipeline_ || !vs || (vs->reflection.inputs.size && !state_.layout)) return false;
+  if (gs && ListOf(state_.topology) != gs->reflection.gsInput) return false;
+  const auto* blend = static_cast<const BlendState*>(state_.blend.get());
+  PipelineKey key = key_;
+  key.vs = vs->id;
+  key.gs = gs ? gs->id : 0;
+  key.ps = ps ? ps->id : 0;
+  key.blend = blend ? blend->id : 0;
+  const Pipeline* pipeline = core_->pipelines->Recent(key);
+  if (!pipeline || !pipeline->handle || pipeline->layout != pipeline_->layout) return false;
+  if (pipeline != pipeline_) {
+    ++stats_.pipelineLookups;
+    vk_.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->handle);
+    pipeline_ = pipeline;
+    key_ = key;
+  }
+  if (dirty_ & kDirtyOffsets) BindConstantOffsets();
+  dirty_ &= ~kDirtySwitch;
+  return true;
+}
+
 bool Context::PrepareDraw() {
   if (core_->lost) return false;
   if ((dirty_ & kDirtyChecks) && !CheckDraw()) return false;

@@ -47,9 +47,11 @@ Context::Context(VulkanDevice& device, std::shared_ptr<Core> core, uint32_t fram
       framesInFlight_(std::max(1u, framesInFlight)) {
   constantStages_ = StageBits(Stage::Vertex) | StageBits(Stage::Pixel);
   if (core_->adapter.caps.geometryShader) constantStages_ |= StageBits(Stage::Geometry);
+  core_->context = this;
 }
 
 Context::~Context() {
+  core_->context = nullptr;
   running_ = {};
   active_ = {};
   clears_.clear();
@@ -76,7 +78,10 @@ Status Context::Init() {
 
 Status Context::BeginBatch() {
   RecycleBatches();
-  if (!batch_) {
+  if (!idle_.empty()) {
+    batch_ = std::move(idle_.back());
+    idle_.pop_back();
+  } else {
     batch_ = std::make_unique<Batch>(*core_);
     if (Status s = batch_->Create(); s != Status::Ok) return s;
   }
@@ -97,11 +102,14 @@ Status Context::BeginBatch() {
 void Context::RecycleBatches() {
   if (inFlight_.size() >= kMaxBatches) core_->Wait(inFlight_.front()->serial);
   core_->Collect();
-  if (inFlight_.empty() || inFlight_.front()->serial > core_->Completed()) return;
-  batch_ = std::move(inFlight_.front());
-  inFlight_.pop_front();
-  vk_.vkResetCommandPool(core_->device, batch_->pool, 0);
-  batch_->sets.Reset();
+  while (!inFlight_.empty() && inFlight_.front()->serial <= core_->Completed()) {
+    Batch& done = *inFlight_.front();
+    // At once: drivers that keep each command in memory of its own then fill the same memory again and again.
+    vk_.vkResetCommandPool(core_->device, done.pool, 0);
+    done.sets.Reset();
+    idle_.push_back(std::move(inFlight_.front()));
+    inFlight_.pop_front();
+  }
 }
 
 VkCommandBuffer Context::Setup() {
@@ -110,8 +118,10 @@ VkCommandBuffer Context::Setup() {
   return batch_->setup;
 }
 
-void Context::Flush() {
-  if (core_->lost) return;
+void Context::Flush() { SubmitAll(); }
+
+Status Context::SubmitAll(const PresentSync& present) {
+  if (core_->lost) return Status::DeviceLost;
   EndPass(false);
   FlushClears(nullptr);
   RecordBarriers();
@@ -123,9 +133,10 @@ void Context::Flush() {
   if (batch_->setupBegun) commands[count++] = batch_->setup;
   commands[count++] = batch_->main;
   for (uint32_t i = 0; i < count; ++i) core_->Check(vk_.vkEndCommandBuffer(commands[i]), "", "vkEndCommandBuffer");
-  core_->Submit(count, commands.data());
+  const Status submitted = core_->Submit(count, commands.data(), present);
   inFlight_.push_back(std::move(batch_));
   BeginBatch();
+  return submitted;
 }
 
 void Context::EndFrame() {
@@ -140,7 +151,7 @@ void Context::EndFrame() {
 Status Context::Finish() {
   Flush();
   const Status s = core_->Wait(core_->recording - 1);
-  core_->Collect();
+  RecycleBatches();
   return s;
 }
 

@@ -58,22 +58,30 @@ uint64_t Core::Completed() {
   return completed_;
 }
 
-Status Core::Submit(uint32_t count, const VkCommandBuffer* commands) {
+Status Core::Submit(uint32_t count, const VkCommandBuffer* commands, const PresentSync& present) {
   if (lost) return Status::DeviceLost;
   std::array<VkCommandBufferSubmitInfo, 2> infos{};
   for (uint32_t i = 0; i < count; ++i) {
     infos[i].sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
     infos[i].commandBuffer = commands[i];
   }
-  VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-  signal.semaphore = timeline;
-  signal.value = recording;
-  signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  const auto semaphore = [](VkSemaphore handle, uint64_t value, VkPipelineStageFlags2 stages) {
+    VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+    info.semaphore = handle;
+    info.value = value;
+    info.stageMask = stages;
+    return info;
+  };
+  const VkSemaphoreSubmitInfo wait = semaphore(present.acquired, 0, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT);
+  const VkSemaphoreSubmitInfo signals[] = {semaphore(timeline, recording, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT),
+                                           semaphore(present.written, 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT)};
   VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
   submit.commandBufferInfoCount = count;
   submit.pCommandBufferInfos = infos.data();
-  submit.signalSemaphoreInfoCount = 1;
-  submit.pSignalSemaphoreInfos = &signal;
+  submit.waitSemaphoreInfoCount = present.acquired ? 1 : 0;
+  submit.pWaitSemaphoreInfos = &wait;
+  submit.signalSemaphoreInfoCount = present.written ? 2 : 1;
+  submit.pSignalSemaphoreInfos = signals;
   const Status status = Check(vk.vkQueueSubmit2(queue, 1, &submit, VK_NULL_HANDLE), "", "vkQueueSubmit2");
   if (status != Status::Ok) lost = true;  // the serial will never be signalled: nothing may wait for it
   ring->OnSubmit(recording);

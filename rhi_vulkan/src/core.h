@@ -16,12 +16,19 @@ class LayoutCache;
 class PipelineCache;
 class QueryHeap;
 class StateTables;
+class Context;
 class Core;
 
 // An object that the GPU may still use when its last reference is gone.
 class Retirable {
  public:
   virtual ~Retirable() = default;
+};
+
+// Binary semaphores of a submission that writes an image of a window.
+struct PresentSync {
+  VkSemaphore acquired = VK_NULL_HANDLE;  // waited for before transfers
+  VkSemaphore written = VK_NULL_HANDLE;   // signalled at the end
 };
 
 class Core {
@@ -38,8 +45,9 @@ class Core {
   // After the device is gone (and idle) objects are deleted at once.
   void Close();
 
-  Status Submit(uint32_t count, const VkCommandBuffer* commands);  // signals `recording` and moves it on
-  Status Wait(uint64_t serial);                                    // of a submitted serial
+  // Signals `recording` and moves it on.
+  Status Submit(uint32_t count, const VkCommandBuffer* commands, const PresentSync& = {});
+  Status Wait(uint64_t serial);  // of a submitted serial
   uint64_t Completed();
   Status Check(VkResult, const char* object, const char* what);  // also notes a lost device
   void SetName(VkObjectType, uint64_t handle, const char* name);
@@ -57,8 +65,9 @@ class Core {
   std::unique_ptr<PipelineCache> pipelines;
   std::unique_ptr<StateTables> states;
   std::unique_ptr<QueryHeap> queries;
-  uint64_t recording = 1;  // serial of the submission being recorded; smaller ones are submitted
-  uint64_t nextId = 1;     // ids of views and the like: never reused, unlike handles
+  Context* context = nullptr;  // of the device; null before and after it
+  uint64_t recording = 1;      // serial of the submission being recorded; smaller ones are submitted
+  uint64_t nextId = 1;         // ids of views and the like: never reused, unlike handles
   bool lost = false;
 
  private:

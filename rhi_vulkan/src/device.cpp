@@ -1,6 +1,7 @@
 #include "device.h"
 
 #include "formats.h"
+#include "swap_chain.h"
 
 namespace rhi_vulkan {
 namespace {
@@ -198,10 +199,12 @@ Status VulkanDevice::CreateQuery(const QueryDesc& desc, Ref<IQuery>* out) {
   return Give(Ref<Query>::Adopt(new Query(core_, desc.type)), Status::Ok, out);
 }
 
-Status VulkanDevice::CreateSwapChain(const SwapChainDesc&, Ref<ISwapChain>* out) {
+Status VulkanDevice::CreateSwapChain(const SwapChainDesc& desc, Ref<ISwapChain>* out) {
   *out = nullptr;
-  return Refuse(Status::Unsupported, MsgCode::CapMissing, "",
-                "swap chains are not offered by this device; see Caps::swapChain, and render to a texture");
+  if (core_->lost) return Status::DeviceLost;
+  if (Status s = backend::CheckSwapChainDesc(desc, GetCaps(), core_->log); s != Status::Ok) return s;
+  auto swapChain = Ref<SwapChain>::Adopt(new SwapChain(core_, desc));
+  return Give(swapChain, swapChain->Create(), out);
 }
 
 Status VulkanDevice::PrecachePipeline(const PipelineKeyDesc& d) {

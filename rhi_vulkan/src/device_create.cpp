@@ -45,17 +45,17 @@ Status ChooseAdapter(Core& core, const DeviceDesc& desc) {
   return Status::Unsupported;
 }
 
-std::vector<const char*> DeviceExtensions(const Adapter& adapter, bool forDisplay) {
+std::vector<const char*> DeviceExtensions(const Adapter& adapter) {
   std::vector<const char*> list;
   for (const char* name : {VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME, VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME,
                            VK_EXT_VERTEX_ATTRIBUTE_DIVISOR_EXTENSION_NAME, VK_EXT_ROBUSTNESS_2_EXTENSION_NAME,
                            VK_EXT_CUSTOM_BORDER_COLOR_EXTENSION_NAME})
     if (adapter.Has(name)) list.push_back(name);
-  if (forDisplay && adapter.Has(VK_KHR_SWAPCHAIN_EXTENSION_NAME)) list.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (adapter.caps.swapChain) list.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   return list;
 }
 
-Status CreateVkDevice(Core& core, bool forDisplay) {
+Status CreateVkDevice(Core& core) {
   const InstanceTable& vki = core.instance.vk;
   FeatureChain features(core.adapter);
   vki.vkGetPhysicalDeviceFeatures2(core.adapter.handle, &features.core);
@@ -65,7 +65,7 @@ Status CreateVkDevice(Core& core, bool forDisplay) {
   queue.queueFamilyIndex = core.adapter.queueFamily;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
-  const std::vector<const char*> extensions = DeviceExtensions(core.adapter, forDisplay);
+  const std::vector<const char*> extensions = DeviceExtensions(core.adapter);
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
@@ -117,7 +117,7 @@ Status CreateDevice(const DeviceDesc& desc, Ref<IDevice>* out) {
   auto core = std::make_shared<Core>(desc.sink);
   if (Status s = core->instance.Create(desc, core->log); s != Status::Ok) return s;
   if (Status s = ChooseAdapter(*core, desc); s != Status::Ok) return s;
-  if (Status s = CreateVkDevice(*core, desc.nativeDisplay != nullptr); s != Status::Ok) return s;
+  if (Status s = CreateVkDevice(*core); s != Status::Ok) return s;
   LoadDeviceTable(*core);
   if (Status s = CreateParts(*core, desc); s != Status::Ok) return s;
   auto device = Ref<VulkanDevice>::Adopt(new VulkanDevice(core, desc));

@@ -31,6 +31,11 @@ void LoadTable(VkInstance instance, InstanceTable& t) {
   Load(instance, "vkGetPhysicalDeviceImageFormatProperties", t.vkGetPhysicalDeviceImageFormatProperties);
   Load(instance, "vkEnumerateDeviceExtensionProperties", t.vkEnumerateDeviceExtensionProperties);
   Load(instance, "vkCreateDevice", t.vkCreateDevice);
+  Load(instance, "vkDestroySurfaceKHR", t.vkDestroySurfaceKHR);
+  Load(instance, "vkGetPhysicalDeviceSurfaceSupportKHR", t.vkGetPhysicalDeviceSurfaceSupportKHR);
+  Load(instance, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR", t.vkGetPhysicalDeviceSurfaceCapabilitiesKHR);
+  Load(instance, "vkGetPhysicalDeviceSurfaceFormatsKHR", t.vkGetPhysicalDeviceSurfaceFormatsKHR);
+  Load(instance, "vkGetPhysicalDeviceSurfacePresentModesKHR", t.vkGetPhysicalDeviceSurfacePresentModesKHR);
   Load(instance, "vkCreateDebugUtilsMessengerEXT", t.vkCreateDebugUtilsMessengerEXT);
   Load(instance, "vkDestroyDebugUtilsMessengerEXT", t.vkDestroyDebugUtilsMessengerEXT);
   Load(instance, "vkSetDebugUtilsObjectNameEXT", t.vkSetDebugUtilsObjectNameEXT);
@@ -77,16 +82,12 @@ VkDebugUtilsMessengerCreateInfoEXT MessengerInfo(const MessageLog& log) {
   return info;
 }
 
-std::vector<const char*> InstanceExtensions(const DeviceDesc& desc, bool validation, bool debugUtils) {
+std::vector<const char*> InstanceExtensions(bool surfaces, bool validation, bool debugUtils) {
   std::vector<const char*> list;
   if (debugUtils) list.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   if (validation) list.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
-  // Only a device for a native display touches the window system.
-  if (desc.nativeDisplay && HasInstanceExtension(nullptr, VK_KHR_SURFACE_EXTENSION_NAME) &&
-      HasInstanceExtension(nullptr, "VK_KHR_xlib_surface")) {
-    list.push_back(VK_KHR_SURFACE_EXTENSION_NAME);
-    list.push_back("VK_KHR_xlib_surface");
-  }
+  if (surfaces) list.push_back(VK_KHR_SURFACE_EXTENSION_NAME);
+  if (surfaces) list.push_back("VK_KHR_xlib_surface");
   return list;
 }
 
@@ -109,6 +110,10 @@ Status Instance::Create(const DeviceDesc& desc, const MessageLog& log) {
     log.Report(Severity::Warning, MsgCode::CapMissing, "",
                "apiValidation was asked for, but %s is not installed; the device is made without it", kValidationLayer);
 
+  // Only a device for a native display touches the window system.
+  display = desc.nativeDisplay;
+  surfaces = display && HasInstanceExtension(nullptr, VK_KHR_SURFACE_EXTENSION_NAME) &&
+             HasInstanceExtension(nullptr, "VK_KHR_xlib_surface");
   VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   app.pEngineName = "fur rhi";
   app.apiVersion = VK_API_VERSION_1_3;
@@ -118,7 +123,7 @@ Status Instance::Create(const DeviceDesc& desc, const MessageLog& log) {
   layerFeatures.pEnabledValidationFeatures = &sync;
   VkDebugUtilsMessengerCreateInfoEXT messengerInfo = MessengerInfo(log);
   messengerInfo.pNext = &layerFeatures;  // so that messages of vkCreateInstance itself arrive too
-  const std::vector<const char*> extensions = InstanceExtensions(desc, validation, debugUtils);
+  const std::vector<const char*> extensions = InstanceExtensions(surfaces, validation, debugUtils);
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pNext = validation ? &messengerInfo : nullptr;
   info.pApplicationInfo = &app;

@@ -14,6 +14,8 @@ struct Instance {
   InstanceTable vk;
   bool debugUtils = false;
   bool validation = false;
+  bool surfaces = false;    // made with VK_KHR_xlib_surface
+  void* display = nullptr;  // DeviceDesc::nativeDisplay
 
   Instance() = default;
   Instance(const Instance&) = delete;

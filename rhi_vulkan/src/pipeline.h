@@ -2,6 +2,7 @@
 // culling, depth bias, topology within its class and vertex strides are dynamic and so not part of the key.
 #pragma once
 
+#include <bit>
 #include <unordered_map>
 
 #include "core.h"
@@ -48,6 +49,11 @@ class PipelineCache {
 
   Status Init(const void* blob, size_t size);
   const Pipeline& Get(const PipelineKey&, const PipelineParts&);  // made if need be
+  // What Get gave lately, for a fraction of its cost; null: ask Get.
+  const Pipeline* Recent(const PipelineKey& key) const {
+    const RecentEntry& entry = recent_[RecentSlot(key)];
+    return entry.pipeline && SameBytes(entry.key, key) ? entry.pipeline : nullptr;
+  }
   void Forget(uint32_t shader);  // when a shader is destroyed: the GPU is past its pipelines
   size_t Blob(void* out, size_t capacity);
   VkPipelineCache Handle() const { return cache_; }
@@ -58,12 +64,27 @@ class PipelineCache {
   struct Hash {
     size_t operator()(const PipelineKey&) const;
   };
+  struct RecentEntry {
+    PipelineKey key;
+    const Pipeline* pipeline = nullptr;
+  };
+  using Words = std::array<uint64_t, sizeof(PipelineKey) / 8>;
+  static bool SameBytes(const PipelineKey& a, const PipelineKey& b) {
+    const auto x = std::bit_cast<Words>(a), y = std::bit_cast<Words>(b);
+    return ((x[0] ^ y[0]) | (x[1] ^ y[1]) | (x[2] ^ y[2]) | (x[3] ^ y[3]) | (x[4] ^ y[4])) == 0;
+  }
+  static size_t RecentSlot(const PipelineKey& k) {  // shaders and blending are what changes between draws
+    return (k.vs * 5u + k.gs * 11u + k.ps + k.blend * 31u) % kRecent;
+  }
+  static constexpr size_t kRecent = 64;
+
   Pipeline Make(const PipelineKey&, const PipelineParts&);
   bool BlobFits(const void* blob, size_t size) const;
 
   Core& core_;
   VkPipelineCache cache_ = VK_NULL_HANDLE;
   std::unordered_map<PipelineKey, Pipeline, Hash> pipelines_;
+  std::array<RecentEntry, kRecent> recent_{};  // into pipelines_, whose elements stay where they are
 };
 
 }  // namespace rhi_vulkan

@@ -84,10 +84,12 @@ Status PipelineCache::Init(const void* blob, size_t size) {
 const Pipeline& PipelineCache::Get(const PipelineKey& key, const PipelineParts& parts) {
   const auto [it, isNew] = pipelines_.try_emplace(key);
   if (isNew) it->second = Make(key, parts);  // a refused pipeline is remembered too, so that it is tried once
+  recent_[RecentSlot(key)] = {key, &it->second};
   return it->second;
 }
 
 void PipelineCache::Forget(uint32_t shader) {
+  recent_ = {};
   std::erase_if(pipelines_, [&](const auto& entry) {
     const PipelineKey& key = entry.first;
     if (key.vs != shader && key.gs != shader && key.ps != shader) return false;

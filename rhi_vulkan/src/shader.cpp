@@ -103,13 +103,23 @@ Status Shader::CheckCaps(const ShaderBlob& blob) const {
 
 Status Shader::Create(const ShaderBlob& blob) {
   if (Status s = CheckCaps(blob); s != Status::Ok) return s;
-  if (!IsSpirv(blob.spirv) || !RegistersInRange(reflection)) {
+  if (blob.spirv.size == 0 || !RegistersInRange(reflection)) {
     core_->log.Report(Severity::Error, MsgCode::ShaderRejected, blob.name,
                       "no SPIR-V (%u words), or registers out of range; make the blob with fur_add_shaders",
                       blob.spirv.size);
     return Status::InvalidArg;
   }
+  if (!IsSpirv(blob.spirv)) {
+    core_->log.Report(Severity::Error, MsgCode::ShaderRejected, blob.name,
+                      "its %u words are no SPIR-V, or SPIR-V that breaks off; make the blob with fur_add_shaders",
+                      blob.spirv.size);
+    return Status::CompileFailed;
+  }
   spirv_ = blob.spirv;
+  if ((reflection.usesVertexId || reflection.usesInstanceId) && !core_->adapter.features.drawParameters) {
+    patched_ = WithoutDrawParameters(blob.spirv);
+    spirv_ = {patched_.data(), uint32_t(patched_.size())};
+  }
   if (Status s = CreateModule(spirv_.data, spirv_.size, &module); s != Status::Ok) return s;
   if (stage_ == Stage::Pixel) colorOutputs = ColorOutputs(blob.spirv);
 

@@ -19,4 +19,8 @@ uint32_t ColorOutputs(const Array<uint32_t>&);
 // cannot say it, and other topologies need not pay for it.
 std::vector<uint32_t> WithPointSize(const Array<uint32_t>&);
 
+// For drivers without shaderDrawParameters (SwiftShader): the bases that SV_VertexID and SV_InstanceID subtract read 0,
+// which is right for draws that start at 0; other draws see their start included.
+std::vector<uint32_t> WithoutDrawParameters(const Array<uint32_t>&);
+
 }  // namespace rhi_vulkan

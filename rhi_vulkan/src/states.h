@@ -72,6 +72,7 @@ class Shader final : public VkObject<IShader> {
   Status CreateComputePipeline(const char* name);
   Stage stage_;
   Array<uint32_t> spirv_;
+  std::vector<uint32_t> patched_;  // spirv_, where it is not the blob's own
   VkShaderModule pointModule_ = VK_NULL_HANDLE;
 };
 

@@ -24,6 +24,8 @@ const char* ToString(VkResult result) {
     case VK_ERROR_INVALID_SHADER_NV: return "VK_ERROR_INVALID_SHADER_NV";
     case VK_ERROR_SURFACE_LOST_KHR: return "VK_ERROR_SURFACE_LOST_KHR";
     case VK_ERROR_OUT_OF_DATE_KHR: return "VK_ERROR_OUT_OF_DATE_KHR";
+    case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR: return "VK_ERROR_NATIVE_WINDOW_IN_USE_KHR";
+    case VK_SUBOPTIMAL_KHR: return "VK_SUBOPTIMAL_KHR";
     default: return "a VkResult without a name here";
   }
 }
@@ -37,6 +39,7 @@ Status ToStatus(VkResult result) {
     case VK_ERROR_OUT_OF_POOL_MEMORY:
     case VK_ERROR_TOO_MANY_OBJECTS: return Status::OutOfMemory;
     case VK_ERROR_DEVICE_LOST: return Status::DeviceLost;
+    case VK_ERROR_SURFACE_LOST_KHR: return Status::SurfaceLost;
     case VK_ERROR_LAYER_NOT_PRESENT:
     case VK_ERROR_EXTENSION_NOT_PRESENT:
     case VK_ERROR_FEATURE_NOT_PRESENT:
@@ -55,6 +58,7 @@ Status CheckResult(const MessageLog& log, VkResult result, const char* object, c
   if (status == Status::OutOfMemory) code = MsgCode::OutOfMemory;
   if (status == Status::Unsupported) code = MsgCode::CapMissing;
   if (status == Status::CompileFailed) code = MsgCode::ShaderRejected;
+  if (status == Status::SurfaceLost) code = MsgCode::SurfaceLost;
   log.Report(Severity::Error, code, object, "%s: %s", what, ToString(result));
   return status;
 }

@@ -80,18 +80,25 @@ class IQuery : public IObject {
 };
 
 // --------------------------------------------------------------------------------------------------------- context
-// The one immediate context (ID3D10Device's drawing half). Null pointers unbind.
+// The one immediate context (ID3D10Device's drawing half). Null pointers unbind. What each call becomes is said as
+// "D3D10 / Vulkan / GL" where the three differ in name or in kind.
+//
+// Errors of setters: a slot range beyond the limits (SlotOutOfRange), a shader of another stage (WrongStage), an index
+// format that is none (FormatMismatch); the call is then ignored. Setting what is set already costs a comparison and is
+// counted (Stats::redundantSets).
 class IContext {
  public:
-  // Input assembler. Vulkan: vertex input state and topology are parts of the pipeline key. GL: a vertex array object
-  // for each layout.
+  // ---- Input assembler: IA* / vertex input state and topology of the pipeline key, vkCmdBindVertexBuffers2,
+  // vkCmdBindIndexBuffer / one vertex array object for each layout, glVertexArrayVertexBuffer,
+  // glVertexArrayElementBuffer.
   virtual void IASetInputLayout(IInputLayout*) = 0;
   virtual void IASetPrimitiveTopology(PrimitiveTopology) = 0;
   virtual void IASetVertexBuffers(uint32_t firstSlot, uint32_t count, IBuffer* const* buffers, const uint32_t* strides,
-                                  const uint32_t* offsets) = 0;  // strides and offsets in bytes
+                                  const uint32_t* offsets) = 0;          // strides and offsets in bytes
   virtual void IASetIndexBuffer(IBuffer*, Format, uint32_t offset) = 0;  // R16_UInt or R32_UInt; offset in bytes
                                                                          // strips are cut at 0xFFFF or 0xFFFFFFFF
-  // Shaders and their registers.
+  // ---- Shaders and their registers: VSSetShader and kin / pipeline key, descriptor sets (rhi/shader.h) / one linked
+  // program for each combination, texture units, sampler objects, uniform and storage blocks.
   virtual void SetShader(Stage, IShader*) = 0;
   virtual void SetConstantBuffers(uint32_t first, uint32_t count, IBuffer* const*) = 0;  // shared by all stages
   virtual void SetShaderResources(Stage, uint32_t first, uint32_t count, IShaderResourceView* const*) = 0;
@@ -119,41 +126,56 @@ class IContext {
   void PSSetSamplers(uint32_t f, uint32_t n, ISamplerState* const* s) { SetSamplers(Stage::Pixel, f, n, s); }
   void CSSetSamplers(uint32_t f, uint32_t n, ISamplerState* const* s) { SetSamplers(Stage::Compute, f, n, s); }
 
-  // Rasterizer. Null state: the defaults of RasterizerDesc.
+  // ---- Rasterizer: RS* / pipeline key and dynamic state, a viewport of negative height / glPolygonMode, glCullFace,
+  // glFrontFace, glPolygonOffsetClamp, glViewportIndexedf. Null state: the defaults of RasterizerDesc. Pixels.
   virtual void RSSetState(IRasterizerState*) = 0;
   virtual void RSSetViewports(uint32_t count, const Viewport*) = 0;
   virtual void RSSetScissorRects(uint32_t count, const Rect*) = 0;  // used only where RasterizerDesc::scissor is set
 
-  // Output merger. Null states: the defaults of their descriptors; null factor: (1,1,1,1).
+  // ---- Output merger: OM* / pipeline key, vkCmdSetBlendConstants, vkCmdSetStencilReference, dynamic rendering begun
+  // at the first draw / glBlendFuncSeparatei, glDepthFunc, glStencilFuncSeparate, framebuffer objects. Null states: the
+  // defaults of their descriptors; null factor: (1,1,1,1).
   virtual void OMSetBlendState(IBlendState*, const float factor[4] = nullptr, uint32_t sampleMask = ~0u) = 0;
   virtual void OMSetDepthStencilState(IDepthStencilState*, uint32_t stencilRef = 0) = 0;
   // Does not change viewports or scissors, as in Direct3D 10. All targets of one size and sample count.
   virtual void OMSetRenderTargets(uint32_t count, IRenderTargetView* const*, IDepthStencilView*) = 0;
-  // Clears the whole view: viewport, scissor and write masks do not matter. Vulkan: folded into the pass's load ops.
+  // Clears the whole view: viewport, scissor and write masks do not matter. ClearRenderTargetView / the pass's load op,
+  // or a pass of its own / glClearNamedFramebufferfv. Depth 0..1.
   virtual void ClearRenderTargetView(IRenderTargetView*, const float rgba[4]) = 0;  // linear values for sRGB views
   virtual void ClearDepthStencilView(IDepthStencilView*, bool clearDepth, float depth, bool clearStencil,
                                      uint8_t stencil) = 0;
   virtual void ClearState() = 0;
 
-  // Data. Dynamic: WriteDiscard, WriteNoOverwrite; staging: Read (waits for the GPU), Write. Others: InvalidArg.
+  // ---- Data. Map: ID3D10Buffer::Map, ID3D10Texture2D::Map / persistently mapped memory / the same. Dynamic buffers:
+  // WriteDiscard, WriteNoOverwrite; staging: Read (waits for the GPU), Write. Others: InvalidArg and MsgCode::MapMode;
+  // mapped already: MapTwice; a subresource that is not there: SubresourceOutOfRange.
   virtual Status Map(IResource*, uint32_t subresource, MapMode, Mapped*) = 0;
   virtual void Unmap(IResource*, uint32_t subresource) = 0;
-  // WriteDiscard in one call for a dynamic constant buffer; `size` <= byteWidth, the rest is undefined. Never ends a
-  // pass. The buffer need not be bound again.
+  // WriteDiscard in one call for a dynamic constant buffer; `size` <= byteWidth bytes, the rest is undefined. Never
+  // ends a pass. The buffer need not be bound again. Map + memcpy + Unmap / a slice of the ring and a dynamic offset /
+  // a slice of the ring and glBindBufferRange.
   virtual void UpdateConstants(IBuffer*, const void* data, uint32_t size) = 0;
-  // Default usage only. Buffers: box in bytes, null for all. Ends a pass.
+  // Default usage only (Immutable: ImmutableWrite). Buffers: box in bytes, null for all. Ends a pass.
+  // UpdateSubresource / a staging slice and vkCmdCopyBuffer(ToImage) / glNamedBufferSubData, glTextureSubImage*.
   virtual void UpdateSubresource(IResource*, uint32_t subresource, const Box*, const void* data, uint32_t rowPitch,
                                  uint32_t slicePitch) = 0;
-  virtual void CopyResource(IResource* dst, IResource* src) = 0;  // same size and format group
+  // Whole resources of the same size and format (or sRGB twins), and boxes of them; overlapping boxes of one
+  // subresource are refused. Copy* / vkCmdCopyBuffer, vkCmdCopyImage / glCopyNamedBufferSubData, glCopyImageSubData.
+  // Ends a pass.
+  virtual void CopyResource(IResource* dst, IResource* src) = 0;
   virtual void CopySubresourceRegion(IResource* dst, uint32_t dstSubresource, uint32_t x, uint32_t y, uint32_t z,
                                      IResource* src, uint32_t srcSubresource, const Box*) = 0;
+  // Averages the samples. ResolveSubresource / vkCmdResolveImage / glBlitNamedFramebuffer.
   virtual void ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITexture* src, uint32_t srcSubresource,
                                   Format) = 0;
   // Box-filters the view's first mip into its further ones, for every slice. The texture needs RenderTarget and
   // ShaderResource, as in Direct3D 10.
   virtual void GenerateMips(IShaderResourceView*) = 0;
 
-  // Work. SV_VertexID and SV_InstanceID count from 0 whatever the start, as in Direct3D 10.
+  // ---- Work: Draw* / vkCmdDraw* / glDraw*BaseVertexBaseInstance. Counts in vertices, indices, instances, groups.
+  // SV_VertexID and SV_InstanceID count from 0 whatever the start, as in Direct3D 10. A draw whose state cannot be used
+  // (NoVertexShader, NoTarget, IndexBufferMissing, ...) is reported and skipped. Indirect: Direct3D 11's, byte offsets,
+  // multiples of 4.
   virtual void Draw(uint32_t vertexCount, uint32_t startVertex) = 0;
   virtual void DrawIndexed(uint32_t indexCount, uint32_t startIndex, int32_t baseVertex) = 0;
   virtual void DrawInstanced(uint32_t vertexCountPerInstance, uint32_t instanceCount, uint32_t startVertex,
@@ -165,18 +187,22 @@ class IContext {
   virtual void Dispatch(uint32_t x, uint32_t y, uint32_t z) = 0;
   virtual void DispatchIndirect(IBuffer* args, uint32_t offset) = 0;  // DispatchArgs
 
-  // Queries. Event and Timestamp take only End. GetData: Ok and the value, or StillDrawing; `flush` submits first.
-  // Sizes: Event bool, Occlusion uint64_t (samples), OcclusionPredicate bool, Timestamp uint64_t (ticks),
-  // TimestampDisjoint and PipelineStatistics their structs.
+  // ---- Queries: ID3D10Asynchronous / query pools, timeline semaphore / query objects, fences. Event and Timestamp
+  // take only End. GetData: Ok and the value, or StillDrawing; `flush` submits first. Sizes: Event bool, Occlusion
+  // uint64_t (samples), OcclusionPredicate bool, Timestamp uint64_t (ticks), TimestampDisjoint and PipelineStatistics
+  // their structs.
   virtual void Begin(IQuery*) = 0;
   virtual void End(IQuery*) = 0;
   virtual Status GetData(IQuery*, void* data, uint32_t size, bool flush) = 0;
 
-  virtual void BeginEvent(const char* name) = 0;  // debug markers
+  // Debug markers: D3DPERF_BeginEvent / vkCmdBeginDebugUtilsLabelEXT / glPushDebugGroup.
+  virtual void BeginEvent(const char* name) = 0;
   virtual void EndEvent() = 0;
 
-  virtual void Flush() = 0;     // submits what is recorded
-  virtual void EndFrame() = 0;  // submits, rotates the ring, retires what the GPU has finished with
+  // Submits what is recorded: Flush / vkQueueSubmit2 / glFlush. EndFrame also rotates the ring and retires what the GPU
+  // has finished with; it waits when framesInFlight frames are still under way.
+  virtual void Flush() = 0;
+  virtual void EndFrame() = 0;
   virtual IDevice* Device() = 0;
 
  protected:
@@ -185,21 +211,30 @@ class IContext {
 
 // ---------------------------------------------------------------------------------------------- device, swap chain
 struct SwapChainDesc {
-  void* nativeWindow = nullptr;  // an X11 Window, as an integer; what GLFW gives with GLFW_NO_API
-  uint32_t width = 0, height = 0, bufferCount = 2;
-  Format format = Format::BGRA8_UNorm;
+  void* nativeWindow = nullptr;         // an X11 Window, as an integer; what GLFW gives with GLFW_NO_API
+  uint32_t width = 0, height = 0;       // of the back buffer; Present scales it to the window where they differ
+  uint32_t bufferCount = 2;             // images on the way to the screen, at least; a driver may take more
+  Format format = Format::BGRA8_UNorm;  // RGBA8 or BGRA8, also _sRGB; R10G10B10A2_UNorm; RGBA16_Float
   bool vsync = true;
 };
+// Release it before its window is destroyed; its last Release waits for the GPU.
 class ISwapChain : public IObject {
  public:
-  virtual ITexture* BackBuffer() = 0;  // valid until Present or Resize
+  // An ordinary texture with Bind::RenderTarget and ShaderResource, the same one until Resize; Present keeps its
+  // contents.
+  virtual ITexture* BackBuffer() = 0;
+  // Submits what is recorded and shows the back buffer; EndFrame remains the caller's, before it or after. A window
+  // that changed its size is followed. SurfaceLost: the window is gone.
   virtual Status Present() = 0;
-  virtual Status Resize(uint32_t width, uint32_t height) = 0;  // 0: minimised; Present does nothing until the next one
+  // Makes a back buffer of the new size, without contents; unbind the old one. 0: minimised; the back buffer stays and
+  // Present does nothing until the next Resize.
+  virtual Status Resize(uint32_t width, uint32_t height) = 0;
 };
 
 struct DeviceDesc {
   // Null: headless (no display server is touched; no swap chain). Else the X11 Display*, for swap chains. It must be
   // said here because a surfaceless EGL display cannot present, and Vulkan's surface extensions belong to the instance.
+  // It must outlive the device and its swap chains.
   void* nativeDisplay = nullptr;
   bool apiValidation = false;   // Vulkan's validation layer, GL's debug context
   bool syncValidation = false;  // Vulkan, with apiValidation
@@ -225,6 +260,8 @@ struct PipelineKeyDesc {
   uint32_t samples = 1;
 };
 
+// ID3D10Device's creating half. Statuses: InvalidArg (the descriptor breaks a rule), Unsupported (the adapter lacks it;
+// CapMissing names the cap), OutOfMemory, CompileFailed (the driver refused a shader), DeviceLost (from then on).
 class IDevice : public IObject {
  public:
   virtual const Caps& GetCaps() const = 0;

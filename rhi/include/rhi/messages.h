@@ -16,12 +16,14 @@ enum class MsgCode : uint16_t {
   ShaderRejected = 104,
   LayoutMismatch = 105,
   ImmutableWrite = 106,
+  LiveObjects = 107,  // an object is still referenced when its device goes
   // 2xx: binding
   TargetStillBoundAsInput = 200,  // a target's shader view was unbound, as Direct3D 10 does
   InputStillBoundAsTarget = 201,
   SlotOutOfRange = 202,
   WrongBindFlag = 203,
   WrongStage = 204,
+  ForeignObject = 205,  // of another device, or destroyed
   // 3xx: drawing
   NoVertexShader = 300,
   NoTarget = 301,
@@ -29,14 +31,24 @@ enum class MsgCode : uint16_t {
   NothingBound = 303,   // a shader reads a register with nothing bound; it reads 0
   TopologyMismatch = 304,
   IndexBufferMissing = 305,
+  ViewMismatch = 306,       // a view's kind or dimension is another than the shader declares
+  StrideMismatch = 307,     // a structured buffer's stride is another than the shader's
+  ConstantsTooSmall = 308,  // a constant buffer holds less than the shader's block
+  ViewportOutside = 309,
   // 4xx: data
   MapMode = 400,
   MapTwice = 401,
   OutOfBounds = 402,
   SubresourceOutOfRange = 403,
   FormatMismatch = 404,
-  // 5xx: queries
+  MappedInUse = 405,    // a mapped resource is used by a draw, dispatch or copy
+  MapOpen = 406,        // a resource is mapped at EndFrame
+  PitchTooSmall = 407,  // rows or slices of the caller's data overlap
+  // 5xx: queries and debug events
   QueryOrder = 500,
+  QueryOpen = 501,   // begun and never ended, or open at EndFrame
+  QueryEmpty = 502,  // nothing was drawn between Begin and End
+  EventOpen = 503,   // BeginEvent without EndEvent at EndFrame
   // 6xx: swap chain
   SurfaceLost = 600,
   // 9xx: from outside

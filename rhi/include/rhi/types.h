@@ -142,7 +142,8 @@ enum class Status : uint8_t {
   CompileFailed,  // the driver refused a shader or program
   DeviceLost,
   StillDrawing,   // GetData: not ready yet
-  InternalError
+  InternalError,
+  SurfaceLost     // the window of a swap chain is gone
 };
 
 // ----------------------------------------------------------------------------------------------------- descriptors

@@ -16,6 +16,10 @@ Status CheckTextureDesc(TextureDesc*, const SubresourceData* init, const Caps&, 
 Status ResolveTextureView(const TextureDesc&, const ViewDesc*, Bind need, ViewDesc* out, const MessageLog&);
 Status ResolveBufferView(const BufferDesc&, const ViewDesc*, Bind need, ViewDesc* out, const MessageLog&);
 
+// Also that the device has swap chains at all.
+Status CheckSwapChainDesc(const SwapChainDesc&, const Caps&, const MessageLog&);
+TextureDesc BackBufferDesc(uint32_t width, uint32_t height, Format);
+
 uint32_t SliceCount(const TextureDesc&);  // array slices: 1 for a Tex3D
 uint32_t MipSize(uint32_t size, uint32_t mip);
 

@@ -1,0 +1,44 @@
+// The loader reads which drivers there are once and from the environment, so the tests run in a child that was born
+// with SwiftShader as its only driver. Without SwiftShader they run here, and skip.
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "swiftshader.h"
+
+namespace {
+
+constexpr const char* kInChild = "FUR_SWIFTSHADER_CHILD";
+
+int RunInChild(const std::string& icd, char** argv) {
+  setenv(kInChild, "1", 1);
+  setenv("VK_ICD_FILENAMES", icd.c_str(), 1);  // of old loaders
+  setenv("VK_DRIVER_FILES", icd.c_str(), 1);
+  pid_t child = 0;
+  if (posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, argv, environ) != 0) return 1;
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) return 1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+namespace rhi_stress {
+
+std::string SwiftShaderIcd() {
+  const char* named = std::getenv("FUR_SWIFTSHADER_ICD");
+  const std::string path = named ? named : "/usr/lib/chromium/vk_swiftshader_icd.json";
+  return access(path.c_str(), R_OK) == 0 ? path : "";
+}
+
+}  // namespace rhi_stress
+
+int main(int argc, char** argv) {
+  const std::string icd = rhi_stress::SwiftShaderIcd();
+  if (!icd.empty() && !std::getenv(kInChild)) return RunInChild(icd, argv);
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
