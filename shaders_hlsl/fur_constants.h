@@ -27,7 +27,7 @@ FUR_CBUFFER(FrameConstants, b0) {
 FUR_CBUFFER(MaterialConstants, b1) {
   FUR_FLOAT4 baseColor;     // rgb factor
   FUR_FLOAT4 specular;      // rgb factor, w: Blinn-Phong power
-  FUR_FLOAT4 surface;       // x: normal scale, y: 1 with a normal map, z: 1 with a specular map
+  FUR_FLOAT4 surface;       // x: normal scale, y: 1 with a normal map
   FUR_FLOAT4 furShape;      // x: length (object units), y: layer uv scale, z: slices N0, w: shells N
   FUR_FLOAT4 furLight;      // x: light left at the root, y: specular power, z: specular scale, w: coverage lost at the tip
   FUR_FLOAT4 furSemantics;  // x: least cosine of the volume law
@@ -37,7 +37,6 @@ FUR_CBUFFER(ObjectConstants, b2) {
   FUR_MATRIX objectToClip;
   FUR_MATRIX objectToEye;     // world axes, origin at the eye: keeps precision far from the world's origin
   FUR_MATRIX normalToWorld;   // inverse transpose of the upper 3x3
-  FUR_FLOAT4 eyeObject;       // xyz: the eye in object space
 };
 
 #endif

@@ -10,6 +10,6 @@ namespace fur {
 
 static_assert(sizeof(FrameConstants) == 80 && offsetof(FrameConstants, lightSpecular) == 64);
 static_assert(sizeof(MaterialConstants) == 96 && offsetof(MaterialConstants, furSemantics) == 80);
-static_assert(sizeof(ObjectConstants) == 208 && offsetof(ObjectConstants, eyeObject) == 192);
+static_assert(sizeof(ObjectConstants) == 192 && offsetof(ObjectConstants, normalToWorld) == 128);
 
 }  // namespace fur

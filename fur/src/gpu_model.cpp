@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "driver_error.h"
 #include "fur/topology.h"
 #include "gpu_constants.h"
 #include "mips.h"
 
 namespace fur {
 namespace {
-
-Error UploadError(rhi::Status status, const std::string& what) {
-  const ErrorCode code = status == rhi::Status::Unsupported ? ErrorCode::NoDevice : ErrorCode::RenderFailed;
-  return {code, "cannot upload " + what + ": " + rhi::ToString(status)};
-}
 
 // Uploads; keeps the first failure instead of passing a Result through every helper.
 class Uploader {
@@ -40,7 +37,7 @@ class Uploader {
   void Check(rhi::Status status, const std::string& what) {
     if (status == rhi::Status::Ok || failed_) return;
     failed_ = true;
-    error_ = UploadError(status, what);
+    error_ = DriverError(status, "cannot upload " + what);
   }
 
   template <class T>
@@ -92,6 +89,13 @@ class Uploader {
     return Texture(image.pixels.data(), image.width, image.height, 1, false, filter, image.name);
   }
 
+  // An image of the model, uploaded once for each filter however many materials use it.
+  rhi::Ref<rhi::IShaderResourceView> ModelTexture(int32_t image, MipFilter filter) {
+    rhi::Ref<rhi::IShaderResourceView>& view = modelTextures_[{image, filter}];
+    if (!view) view = ImageTexture(model_.images[size_t(image)], filter);
+    return view;
+  }
+
   rhi::Ref<rhi::IShaderResourceView> OneTexel(std::array<uint8_t, 4> value, const std::string& name) {
     return Texture(value.data(), 1, 1, 1, false, MipFilter::Raw, name);
   }
@@ -104,11 +108,13 @@ class Uploader {
   }
 
   rhi::Ref<rhi::IShaderResourceView> BaseColor(const Material& m) {
-    const Image white{"white", 1, 1, {255, 255, 255, 255}};
-    const Image& image = m.baseColorTexture.image < 0 ? white : model_.images[size_t(m.baseColorTexture.image)];
-    if (Correct()) return ImageTexture(image, MipFilter::Srgb);
+    const int32_t image = m.baseColorTexture.image;
+    const MipFilter filter = Correct() ? MipFilter::Srgb : MipFilter::Raw;
     const glm::dvec3 raw(LinearToSrgb(m.baseColor.r), LinearToSrgb(m.baseColor.g), LinearToSrgb(m.baseColor.b));
-    return raw == glm::dvec3(1) ? ImageTexture(image, MipFilter::Raw) : ImageTexture(Tinted(image, raw), MipFilter::Raw);
+    const bool tinted = !Correct() && raw != glm::dvec3(1);
+    if (image >= 0 && !tinted) return ModelTexture(image, filter);
+    const Image source = image < 0 ? Image{"white", 1, 1, {255, 255, 255, 255}} : model_.images[size_t(image)];
+    return ImageTexture(tinted ? Tinted(source, raw) : source, filter);
   }
 
   rhi::Ref<rhi::ISamplerState> Sampler(bool wrapU, bool wrapV) {
@@ -140,7 +146,7 @@ class Uploader {
     const float power = Correct() ? std::clamp(2 / std::pow(std::max(m.roughness, 0.05f), 4.0f) - 2, 2.0f, 256.0f) : 10.0f;
     c.baseColor = Correct() ? m.baseColor : glm::vec4(1);
     c.specular = glm::vec4(gloss, power);
-    c.surface = {m.normalScale, m.normalTexture.image >= 0 ? 1 : 0, mapped ? 1 : 0, 0};
+    c.surface = {m.normalScale, m.normalTexture.image >= 0 ? 1 : 0, 0, 0};
     return c;
   }
 
@@ -150,7 +156,7 @@ class Uploader {
     gpu->shells = settings_.shells ? settings_.shells : p.shells ? p.shells : std::max(16u, volume.layers);
     gpu->furVolume = Volume(volume);
     gpu->lengthMap = fur.lengthMap < 0 ? OneTexel({255, 255, 255, 255}, "full length")
-                                       : ImageTexture(model_.images[size_t(fur.lengthMap)], MipFilter::Raw);
+                                       : ModelTexture(fur.lengthMap, MipFilter::Raw);
     // The demo's shells lose coverage with height whatever the volume holds.
     const double falloff = Correct() ? p.heightFalloff : 1;
     c->furShape = {float(p.length), float(p.layerUvScale), float(volume.layers), float(gpu->shells)};
@@ -163,10 +169,10 @@ class Uploader {
     GpuMaterial gpu;
     gpu.baseColor = BaseColor(m);
     gpu.normal = m.normalTexture.image < 0 ? OneTexel({128, 128, 255, 255}, "flat normal")
-                                           : ImageTexture(model_.images[size_t(m.normalTexture.image)], MipFilter::Raw);
+                                           : ModelTexture(m.normalTexture.image, MipFilter::Raw);
     gpu.specular = m.specularTexture.image < 0
                        ? OneTexel({255, 255, 255, 255}, "white")
-                       : ImageTexture(model_.images[size_t(m.specularTexture.image)], Correct() ? MipFilter::Srgb : MipFilter::Raw);
+                       : ModelTexture(m.specularTexture.image, Correct() ? MipFilter::Srgb : MipFilter::Raw);
     gpu.surfaceSampler = Sampler(m.baseColorTexture.wrapU, m.baseColorTexture.wrapV);
     gpu.doubleSided = m.doubleSided;
     MaterialConstants constants = SurfaceConstants(m);
@@ -182,6 +188,7 @@ class Uploader {
   rhi::IDevice& device_;
   const Model& model_;
   const RenderSettings& settings_;
+  std::map<std::pair<int32_t, MipFilter>, rhi::Ref<rhi::IShaderResourceView>> modelTextures_;
   bool failed_ = false;
   Error error_;
 };

@@ -2,16 +2,12 @@
 
 #include <array>
 
+#include "driver_error.h"
 #include "fur_shaders/fur_shaders.h"
 #include "technique.h"
 
 namespace fur {
 namespace {
-
-Error RenderError(rhi::Status status, const char* what) {
-  const ErrorCode code = status == rhi::Status::Unsupported ? ErrorCode::NoDevice : ErrorCode::RenderFailed;
-  return {code, std::string(what) + ": " + rhi::ToString(status)};
-}
 
 // A colour and a depth target, and the single-sampled texture that is read.
 struct Targets {
@@ -49,7 +45,7 @@ class RendererImpl final : public Renderer {
 
   Result<Done> Init(const Model& model) {
     const rhi::Status status = MakeTargets(device_, settings_, settings_.samples, &targets_);
-    if (status != rhi::Status::Ok) return RenderError(status, "cannot create the targets");
+    if (status != rhi::Status::Ok) return DriverError(status, "cannot create the targets");
     Result<GpuModel> uploaded = UploadModel(device_, model, settings_);
     if (!uploaded) return uploaded.error();
     model_ = std::move(*uploaded);
@@ -70,7 +66,7 @@ class RendererImpl final : public Renderer {
 
   Result<Done> Finish() override {
     const rhi::Status status = device_.WaitIdle();
-    if (status != rhi::Status::Ok) return RenderError(status, "the driver failed while drawing");
+    if (status != rhi::Status::Ok) return DriverError(status, "the driver failed while drawing");
     return Done{};
   }
 
@@ -78,7 +74,7 @@ class RendererImpl final : public Renderer {
     Image image{"frame", settings_.width, settings_.height, {}};
     image.pixels.resize(size_t(image.width) * image.height * 4);
     const rhi::Status status = device_.ReadBack(targets_.resolved.get(), 0, image.pixels.data(), image.pixels.size());
-    if (status != rhi::Status::Ok) return RenderError(status, "cannot read the frame back");
+    if (status != rhi::Status::Ok) return DriverError(status, "cannot read the frame back");
     for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
     return image;
   }
@@ -92,7 +88,7 @@ class RendererImpl final : public Renderer {
     if (status == rhi::Status::Ok) status = device_.CreateShader(shaders::count_PSMain, &counting);
     for (auto& q : queries)
       if (status == rhi::Status::Ok) status = device_.CreateQuery({rhi::QueryType::Occlusion}, &q);
-    if (status != rhi::Status::Ok) return RenderError(status, "cannot prepare the counting pass");
+    if (status != rhi::Status::Ok) return DriverError(status, "cannot prepare the counting pass");
 
     FrameInputs in = Inputs(camera, placements, &counts);
     in.countingShader = counting.get();

@@ -2,6 +2,7 @@
 // adjacency, 16 instanced shells inside out; animals in the order given; nothing skipped.
 #include <cstddef>
 
+#include "driver_error.h"
 #include "fur_shaders/fur_shaders.h"
 #include "technique.h"
 
@@ -26,8 +27,7 @@ class Creation {
   void Check(rhi::Status status, const char* what) {
     if (status == rhi::Status::Ok || failed_) return;
     failed_ = true;
-    const ErrorCode code = status == rhi::Status::Unsupported ? ErrorCode::NoDevice : ErrorCode::RenderFailed;
-    error_ = {code, std::string("cannot create ") + what + ": " + rhi::ToString(status)};
+    error_ = DriverError(status, std::string("cannot create ") + what);
   }
   bool Failed() const { return failed_; }
   const Error& Failure() const { return error_; }
@@ -278,7 +278,6 @@ ObjectConstants MakeObjectConstants(const glm::dmat4& objectToWorld, const Frame
   o.objectToClip = in.worldToClip * objectToWorld;
   o.objectToEye = objectToEye;
   o.normalToWorld = glm::dmat4(glm::transpose(glm::inverse(glm::dmat3(objectToWorld))));
-  o.eyeObject = glm::inverse(objectToWorld) * glm::dvec4(in.eye, 1);
   return o;
 }
 

@@ -141,4 +141,15 @@ void DepthStencilFromGl(void* texels, uint64_t count) {
   ForEachWord(texels, count, [](uint32_t w) { return std::rotr(w, 8); });
 }
 
+GLenum TargetOf(rhi::TextureDim dim) {
+  switch (dim) {
+    case rhi::TextureDim::Tex2D: return GL_TEXTURE_2D;
+    case rhi::TextureDim::Tex2DArray: return GL_TEXTURE_2D_ARRAY;
+    case rhi::TextureDim::TexCube: return GL_TEXTURE_CUBE_MAP;
+    case rhi::TextureDim::Tex3D: return GL_TEXTURE_3D;
+    case rhi::TextureDim::Tex2DMS: return GL_TEXTURE_2D_MULTISAMPLE;
+  }
+  return GL_TEXTURE_2D;
+}
+
 }  // namespace rhi_gl

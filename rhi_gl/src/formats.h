@@ -28,4 +28,6 @@ bool SupportsSamples(rhi::Format, uint32_t samples);
 void DepthStencilToGl(void* texels, uint64_t count);
 void DepthStencilFromGl(void* texels, uint64_t count);
 
+GLenum TargetOf(rhi::TextureDim);  // the texture target of a dimension
+
 }  // namespace rhi_gl

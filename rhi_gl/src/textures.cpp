@@ -6,17 +6,6 @@
 namespace rhi_gl {
 namespace {
 
-GLenum TargetOf(TextureDim dim) {
-  switch (dim) {
-    case TextureDim::Tex2D: return GL_TEXTURE_2D;
-    case TextureDim::Tex2DArray: return GL_TEXTURE_2D_ARRAY;
-    case TextureDim::TexCube: return GL_TEXTURE_CUBE_MAP;
-    case TextureDim::Tex3D: return GL_TEXTURE_3D;
-    case TextureDim::Tex2DMS: return GL_TEXTURE_2D_MULTISAMPLE;
-  }
-  return GL_TEXTURE_2D;
-}
-
 Status CheckFormat(const Core& core, const TextureDesc& desc) {
   const FormatSupport support = QueryFormatSupport(desc.format, core.caps);
   const char* lacks = nullptr;
