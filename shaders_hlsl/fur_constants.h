@@ -30,13 +30,20 @@ FUR_CBUFFER(MaterialConstants, b1) {
   FUR_FLOAT4 surface;       // x: normal scale, y: 1 with a normal map
   FUR_FLOAT4 furShape;      // x: length (object units), y: layer uv scale, z: slices N0, w: shells N
   FUR_FLOAT4 furLight;      // x: light left at the root, y: specular power, z: specular scale, w: coverage lost at the tip
-  FUR_FLOAT4 furSemantics;  // x: least cosine of the volume law
+  FUR_FLOAT4 furSemantics;  // x: least cosine of the volume law, y: exponent N0 / N of the opacity law
+  FUR_FLOAT4 fin;           // x: threshold of |e.N| below which an edge grows a fin, y: opacity of a whole fin
 };
 
 FUR_CBUFFER(ObjectConstants, b2) {
   FUR_MATRIX objectToClip;
   FUR_MATRIX objectToEye;     // world axes, origin at the eye: keeps precision far from the world's origin
   FUR_MATRIX normalToWorld;   // inverse transpose of the upper 3x3
+  FUR_FLOAT4 comb;            // xyz: sideways offset of the tip for fur of length 1, object axes; w: bend exponent, >= 1
+};
+
+FUR_CBUFFER(DrawConstants, b3) {
+  FUR_FLOAT4 draw;  // shells: x: first shell, y: +1 inside out or -1 outside in, z: shells in a geometry shader's loop
+                    // compaction of fins: x: edges, y: first entry of the list, z: index of the arguments
 };
 
 #endif

@@ -35,11 +35,12 @@ const CLI::Validator kFinite(
     "");
 
 struct RenderFlags {
-  std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "seed", look = "correct", semantics,
-              stats, eye, target, adapter, furFile, furMaterial, background;
+  std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "shells", look = "correct", semantics,
+              stats, shellMode = "instanced", finMode = "auto", comb, eye, target, adapter, furFile, furMaterial, background;
   uint32_t samples = 1, shells = 0, count = 1, repeat = 1;
   double fov = 0, zNear = 0, zFar = 0, furLength = 0, uvScale = 0;
-  bool noFins = false, noShells = false, validate = false;
+  double finThreshold = 0.25, finOpacity = 0.9, combStrength = 1, bend = 2, spacing = 0;
+  bool noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
 };
 
 Result<glm::dvec3> ParseVector(const std::string& text, const char* flag) {
@@ -62,15 +63,51 @@ Result<Done> ParseSize(const std::string& text, fur::RenderSettings* s) {
   return Done{};
 }
 
+template <class T>
+T Choose(const std::string& text, std::initializer_list<std::pair<const char*, T>> choices) {
+  for (const auto& [name, value] : choices)
+    if (text == name) return value;
+  return choices.begin()->second;
+}
+
+// What belongs to technique shells alone.
+Result<Done> SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
+  s->shellMode = Choose<fur::ShellMode>(f.shellMode, {{"instanced", fur::ShellMode::Instanced},
+                                                      {"draws", fur::ShellMode::Draws},
+                                                      {"amplified", fur::ShellMode::Amplified}});
+  s->finMode = Choose<fur::FinMode>(f.finMode, {{"auto", fur::FinMode::Auto},
+                                                {"geometry", fur::FinMode::Geometry},
+                                                {"pulled", fur::FinMode::Pulled},
+                                                {"compacted", fur::FinMode::Compacted}});
+  s->finThreshold = f.finThreshold;
+  s->finOpacity = f.finOpacity;
+  s->backFaces = !f.noBackFaces;
+  s->sortAnimals = !f.noSort;
+  s->bend = f.bend;
+  s->spacing = f.spacing;
+  if (f.comb.empty()) return Done{};
+  Result<glm::dvec3> comb = ParseVector(f.comb, "--comb");
+  if (!comb) return comb.error();
+  const double length = glm::length(*comb);
+  if (!(length > 0)) return Error{ErrorCode::Usage, "--comb needs a direction other than 0,0,0"};
+  s->comb = *comb / length * f.combStrength;
+  return Done{};
+}
+
 Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   fur::RenderSettings s;
   if (Result<Done> size = ParseSize(f.size, &s); !size) return size.error();
   s.samples = f.samples;
   s.look = f.look == "seed" ? fur::Look::Seed : fur::Look::Correct;
-  s.semantics = f.semantics == "volume" ? fur::Semantics::Volume : fur::Semantics::Sheet;
+  s.technique = f.technique == "seed" ? fur::Technique::Seed : fur::Technique::Shells;
+  // As published: a sheet, whatever the angle.
+  const bool published = s.technique == fur::Technique::Seed || s.look == fur::Look::Seed;
+  const bool volume = f.semantics.empty() ? !published : f.semantics == "volume";
+  s.semantics = volume ? fur::Semantics::Volume : fur::Semantics::Sheet;
   s.shells = f.shells;
   s.drawFins = !f.noFins;
   s.drawShells = !f.noShells;
+  if (Result<Done> shells = SetShellOptions(f, &s); !shells) return shells.error();
   if (s.look == fur::Look::Seed) s.light = fur::kDemoLight;
   s.background = s.look == fur::Look::Correct ? kStudioGrey : glm::dvec3(0);
   if (f.background.empty()) return s;
@@ -235,6 +272,22 @@ Result<Done> Render(const RenderFlags& f) {
   return Done{};
 }
 
+void AddShellFlags(CLI::App* c, RenderFlags* f) {
+  c->add_option("--shell-mode", f->shellMode, "Shells by instances, by a draw each, or amplified by a geometry shader")
+      ->check(CLI::IsMember({"instanced", "draws", "amplified"}))->capture_default_str();
+  c->add_option("--fins", f->finMode, "Fins by a geometry shader, pulled by the vertex shader, or compacted first; auto: the best there is")
+      ->check(CLI::IsMember({"auto", "geometry", "pulled", "compacted"}))->capture_default_str();
+  c->add_option("--fin-threshold", f->finThreshold, "Edges this near to the silhouette grow a fading fin, 0..1")
+      ->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
+  c->add_option("--fin-opacity", f->finOpacity, "Opacity of a fin on the silhouette, 0..1")->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
+  c->add_option("--comb", f->comb, "Direction that the fur is combed to, X,Y,Z in the model's axes");
+  c->add_option("--comb-strength", f->combStrength, "Sideways offset of the tips, in fur lengths")->check(kFinite)->check(CLI::Range(0.0, 10.0))->capture_default_str();
+  c->add_option("--bend", f->bend, "Exponent of the height in the comb's offset: 1 straight, 2 bent")->check(kFinite)->check(CLI::Range(1.0, 8.0))->capture_default_str();
+  c->add_option("--spacing", f->spacing, "Distance of two shells in the model's units; the length is N times it")->check(kFinite)->check(CLI::PositiveNumber);
+  c->add_flag("--no-back-faces", f->noBackFaces, "Leave out the fur that is seen from behind");
+  c->add_flag("--no-sort", f->noSort, "Draw the animals in the order given instead of back to front");
+}
+
 void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("MODEL", f->model, "A .gltf or .glb file; without it, the built-in animal");
   c->add_option("-o,--output", f->output, "PNG to write; with --backend both, FILE.vulkan.png and FILE.gl.png")->capture_default_str();
@@ -243,10 +296,10 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--adapter", f->adapter, "Part of an adapter's name (fur info lists them); default: the first");
   c->add_option("--size", f->size, "Width x height in pixels")->capture_default_str();
   c->add_option("--samples", f->samples, "Samples a pixel, 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
-  c->add_option("--technique", f->technique, "seed: shells and fins as published")->check(CLI::IsMember({"seed"}))->capture_default_str();
+  c->add_option("--technique", f->technique, "shells, or seed: shells and fins as published")->check(CLI::IsMember({"shells", "seed"}))->capture_default_str();
   c->add_option("--look", f->look, "Lighting and colour: seed (as published, raw values) or correct (sRGB, linear light)")
       ->check(CLI::IsMember({"seed", "correct"}))->capture_default_str();
-  c->add_option("--semantics", f->semantics, "A shell is a sheet (default for technique seed), or a slab of a volume")
+  c->add_option("--semantics", f->semantics, "A shell is a sheet (default as published: technique or look seed), or a slab of a volume")
       ->check(CLI::IsMember({"sheet", "volume"}));
   c->add_option("--shells", f->shells, "Number of shells, 1..512; default: as the coat says")->check(CLI::Range(1u, kMaxShells));
   c->add_option("--eye", f->eye, "Eye, X,Y,Z; without --eye and --target the camera frames the animals");
@@ -264,6 +317,7 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--background", f->background, "Background, R,G,B in 0..1: linear, default a grey, for look correct; raw, default black, for look seed");
   c->add_flag("--no-fins", f->noFins, "Draw no fins");
   c->add_flag("--no-shells", f->noShells, "Draw no shells");
+  AddShellFlags(c, f);
   c->add_flag("--validate", f->validate, "Run with the drivers' validation; messages go to stderr and into the stats");
 }
 

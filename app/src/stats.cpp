@@ -2,7 +2,7 @@
 
 namespace app {
 
-const char* ToString(fur::Technique) { return "seed"; }
+const char* ToString(fur::Technique technique) { return technique == fur::Technique::Seed ? "seed" : "shells"; }
 const char* ToString(fur::Look look) { return look == fur::Look::Seed ? "seed" : "correct"; }
 const char* ToString(fur::Semantics semantics) { return semantics == fur::Semantics::Sheet ? "sheet" : "volume"; }
 
@@ -25,6 +25,7 @@ nlohmann::ordered_json StatsJson(const RenderOutcome& out, const RenderJob& job)
   j["draws"] = c.draws;
   j["triangles_submitted"] = c.triangles;
   j["edges_submitted"] = c.edges;
+  j["dispatches"] = c.dispatches;
   j["fragments_shaded"] = c.baseFragments + c.finFragments + c.shellFragments;
   j["fragments"] = {{"base", c.baseFragments}, {"fins", c.finFragments}, {"shells", c.shellFragments}};
   j["skipped"] = {{"animals", c.skippedAnimals}, {"edges", c.skippedEdges}, {"shells", c.skippedShells}};

@@ -9,7 +9,7 @@
 namespace fur {
 
 static_assert(sizeof(FrameConstants) == 80 && offsetof(FrameConstants, lightSpecular) == 64);
-static_assert(sizeof(MaterialConstants) == 96 && offsetof(MaterialConstants, furSemantics) == 80);
-static_assert(sizeof(ObjectConstants) == 192 && offsetof(ObjectConstants, normalToWorld) == 128);
+static_assert(sizeof(MaterialConstants) == 112 && offsetof(MaterialConstants, furSemantics) == 80);
+static_assert(sizeof(ObjectConstants) == 208 && offsetof(ObjectConstants, comb) == 192);
 
 }  // namespace fur

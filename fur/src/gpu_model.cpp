@@ -5,6 +5,7 @@
 #include <map>
 
 #include "driver_error.h"
+#include "fur/fur_mesh.h"
 #include "fur/topology.h"
 #include "gpu_constants.h"
 #include "mips.h"
@@ -21,6 +22,10 @@ class Uploader {
   Result<GpuModel> Run() {
     GpuModel gpu;
     for (const Primitive& p : model_.primitives) gpu.geometry.push_back(Geometry(p));
+    if (settings_.technique == Technique::Shells)
+      for (const FurMesh& mesh : MakeFurMeshes(model_, Correct() ? FurTiling::Isometric : FurTiling::Model))
+        gpu.furMeshes.push_back(UploadFurMesh(mesh));
+    gpu.bounds = ComputeBounds(model_);
     for (const Material& m : model_.materials) gpu.materials.push_back(MakeMaterial(m));
     for (const Part& p : model_.parts)
       gpu.parts.push_back({p.primitive, model_.primitives[p.primitive].material, p.transform,
@@ -41,19 +46,43 @@ class Uploader {
   }
 
   template <class T>
-  rhi::Ref<rhi::IBuffer> Buffer(const std::vector<T>& data, rhi::Bind bind, const std::string& name) {
+  rhi::Ref<rhi::IBuffer> Buffer(const std::vector<T>& data, rhi::Bind bind, const std::string& name, uint32_t stride = 0) {
     rhi::Ref<rhi::IBuffer> buffer;
     if (data.empty()) return buffer;
     const auto bytes = uint32_t(data.size() * sizeof(T));
-    Check(device_.CreateBuffer({.byteWidth = bytes, .usage = rhi::Usage::Immutable, .bind = bind, .name = name.c_str()},
+    Check(device_.CreateBuffer({.byteWidth = bytes, .usage = rhi::Usage::Immutable, .bind = bind, .structureStride = stride,
+                                .name = name.c_str()},
                                data.data(), &buffer),
           name);
     return buffer;
   }
 
+  rhi::Ref<rhi::IShaderResourceView> View(const rhi::Ref<rhi::IBuffer>& buffer) {
+    rhi::Ref<rhi::IShaderResourceView> view;
+    if (buffer) Check(device_.CreateShaderResourceView(buffer.get(), nullptr, &view), "a view of a buffer");
+    return view;
+  }
+
+  GpuFurMesh UploadFurMesh(const FurMesh& mesh) {
+    using rhi::Bind;
+    constexpr uint32_t kEdgeBytes = 4 * sizeof(uint32_t);
+    GpuFurMesh g;
+    g.vertices = Buffer(mesh.vertices, Bind::VertexBuffer | Bind::ShaderResource, "fur vertices", sizeof(FurVertex));
+    g.indices = Buffer(mesh.indices, Bind::IndexBuffer, "fur indices");
+    g.edges = Buffer(mesh.edges, Bind::IndexBuffer | Bind::ShaderResource, "fur edges", kEdgeBytes);
+    g.verticesView = View(g.vertices);
+    g.edgesView = View(g.edges);
+    g.indexCount = uint32_t(mesh.indices.size());
+    g.edgeCount = uint32_t(mesh.edges.size() / 4);
+    g.baldTriangles = mesh.baldTriangles;
+    g.baldEdges = mesh.baldEdges;
+    return g;
+  }
+
   GpuGeometry Geometry(const Primitive& p) {
     GpuGeometry g;
-    const std::vector<uint32_t> edges = SeedLineAdjacency(p.indices);
+    const bool seed = settings_.technique == Technique::Seed;
+    const std::vector<uint32_t> edges = seed ? SeedLineAdjacency(p.indices) : std::vector<uint32_t>();
     g.vertices = Buffer(p.vertices, rhi::Bind::VertexBuffer, p.name + " vertices");
     g.indices = Buffer(p.indices, rhi::Bind::IndexBuffer, p.name + " indices");
     g.finIndices = Buffer(edges, rhi::Bind::IndexBuffer, p.name + " edges");
@@ -159,10 +188,14 @@ class Uploader {
                                        : ModelTexture(fur.lengthMap, MipFilter::Raw);
     // The demo's shells lose coverage with height whatever the volume holds.
     const double falloff = Correct() ? p.heightFalloff : 1;
-    c->furShape = {float(p.length), float(p.layerUvScale), float(volume.layers), float(gpu->shells)};
+    const double length = settings_.spacing > 0 ? settings_.spacing * gpu->shells : p.length;
+    c->furShape = {float(length), float(p.layerUvScale), float(volume.layers), float(gpu->shells)};
     c->furLight = {float(p.selfShadow), float(p.specularPower), float(p.specularScale), float(falloff)};
-    // The longest way through one shell's slab: docs/accuracy.md.
-    c->furSemantics = {0.25f / std::sqrt(float(gpu->shells)), 0, 0, 0};
+    // The longest way through one shell's slab, and the published slabs that one shell stands for: docs/accuracy.md.
+    c->furSemantics = {0.25f / std::sqrt(float(gpu->shells)), float(volume.layers) / float(gpu->shells), 0, 0};
+    c->fin = {float(settings_.finThreshold), float(settings_.finOpacity), 0, 0};
+    // (i + 1/2) N0 / N - 1/2 is whole for every i where N0 / N is odd.
+    gpu->betweenSlices = volume.layers % gpu->shells != 0 || volume.layers / gpu->shells % 2 == 0;
   }
 
   GpuMaterial MakeMaterial(const Material& m) {

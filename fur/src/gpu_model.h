@@ -10,8 +10,14 @@
 namespace fur {
 
 struct GpuGeometry {  // of one primitive
-  rhi::Ref<rhi::IBuffer> vertices, indices, finIndices;  // finIndices: LineListAdj, null without edges
+  rhi::Ref<rhi::IBuffer> vertices, indices, finIndices;  // finIndices: LineListAdj, null without edges or for shells
   uint32_t indexCount = 0, finIndexCount = 0;
+};
+
+struct GpuFurMesh {  // of one furred primitive, for technique shells (fur/fur_mesh.h); null elsewhere
+  rhi::Ref<rhi::IBuffer> vertices, indices, edges;
+  rhi::Ref<rhi::IShaderResourceView> verticesView, edgesView;  // structured: FurVertex; uint4
+  uint32_t indexCount = 0, edgeCount = 0, baldTriangles = 0, baldEdges = 0;
 };
 
 struct GpuMaterial {
@@ -20,6 +26,7 @@ struct GpuMaterial {
   rhi::Ref<rhi::ISamplerState> surfaceSampler;
   rhi::Ref<rhi::IBuffer> constants;  // MaterialConstants
   uint32_t shells = 0;               // 0: bald
+  bool betweenSlices = false;        // a shell may lie between two slices of the volume
   bool doubleSided = false;
 };
 
@@ -31,6 +38,8 @@ struct GpuPart {
 
 struct GpuModel {
   std::vector<GpuGeometry> geometry;
+  std::vector<GpuFurMesh> furMeshes;  // one for each primitive; empty for technique seed
+  Bounds bounds;                      // without fur
   std::vector<GpuMaterial> materials;
   std::vector<GpuPart> parts;
   int32_t firstFur = -1;  // first furred material, or -1

@@ -1,8 +1,10 @@
 #include "fur/renderer.h"
 
 #include <array>
+#include <glm/gtc/packing.hpp>
+#include <optional>
 
-#include "driver_error.h"
+#include "creation.h"
 #include "fur_shaders/fur_shaders.h"
 #include "technique.h"
 
@@ -17,11 +19,29 @@ struct Targets {
   rhi::Format format = rhi::Format::Unknown;
 };
 
+rhi::Format PictureFormat(Look look) {
+  return look == Look::Correct ? rhi::Format::RGBA8_UNorm_sRGB : rhi::Format::RGBA8_UNorm;
+}
+
+TargetFormat ResolveTarget(const RenderSettings& s) {
+  if (s.target != TargetFormat::Auto) return s.target;
+  return s.technique == Technique::Seed ? TargetFormat::Unorm8 : TargetFormat::Float16;
+}
+
+rhi::Format FrameFormat(const RenderSettings& s) {
+  switch (ResolveTarget(s)) {
+    case TargetFormat::Float16: return rhi::Format::RGBA16_Float;
+    case TargetFormat::Float32: return rhi::Format::RGBA32_Float;
+    default: return PictureFormat(s.look);
+  }
+}
+
 rhi::Status MakeTargets(rhi::IDevice& device, const RenderSettings& s, uint32_t samples, Targets* t) {
   using namespace rhi;
-  t->format = s.look == Look::Correct ? Format::RGBA8_UNorm_sRGB : Format::RGBA8_UNorm;
+  t->format = FrameFormat(s);
   TextureDesc color{.dim = samples > 1 ? TextureDim::Tex2DMS : TextureDim::Tex2D, .width = s.width, .height = s.height,
-                    .sampleCount = samples, .format = t->format, .bind = Bind::RenderTarget, .name = "colour"};
+                    .sampleCount = samples, .format = t->format, .bind = Bind::RenderTarget | Bind::ShaderResource,
+                    .name = "colour"};
   TextureDesc depth = color;
   depth.format = Format::D32_Float;
   depth.bind = Bind::DepthStencil;
@@ -39,6 +59,58 @@ rhi::Status MakeTargets(rhi::IDevice& device, const RenderSettings& s, uint32_t 
   return device.CreateTexture(color, nullptr, &t->resolved);
 }
 
+float HalfToFloat(uint16_t h) { return glm::unpackHalf1x16(h); }
+
+// Brings a frame of floats to the picture's eight bits, through its one transfer function.
+class Presenter {
+ public:
+  Presenter(Creation& c, const RenderSettings& s, rhi::ITexture* frame)
+      : width_(s.width),
+        height_(s.height),
+        vs_(c.Shader(shaders::present_VSMain)),
+        ps_(c.Shader(shaders::present_PSMain)),
+        raster_(c.Raster(rhi::CullMode::None, false)),
+        depth_(c.Depth({.depthEnable = false, .depthWrite = false})),
+        blend_(c.Blend(rhi::Blend::One, rhi::Blend::Zero)) {
+    c.Check(c.Device().CreateTexture({.width = s.width, .height = s.height, .format = PictureFormat(s.look),
+                                      .bind = rhi::Bind::RenderTarget, .name = "picture"},
+                                     nullptr, &picture_),
+            "the picture");
+    if (picture_) c.Check(c.Device().CreateRenderTargetView(picture_.get(), nullptr, &target_), "the picture's view");
+    if (frame) c.Check(c.Device().CreateShaderResourceView(frame, nullptr, &frame_), "the frame's view");
+  }
+  void Draw(rhi::IContext& context) const {
+    rhi::IRenderTargetView* const targets[] = {target_.get()};
+    rhi::IShaderResourceView* frame = frame_.get();
+    context.OMSetRenderTargets(1, targets, nullptr);
+    context.IASetInputLayout(nullptr);
+    context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
+    context.VSSetShader(vs_.get());
+    context.GSSetShader(nullptr);
+    context.PSSetShader(ps_.get());
+    context.RSSetState(raster_.get());
+    context.OMSetDepthStencilState(depth_.get());
+    context.OMSetBlendState(blend_.get());
+    const rhi::Viewport viewport{.width = float(width_), .height = float(height_)};
+    context.RSSetViewports(1, &viewport);
+    context.PSSetShaderResources(0, 1, &frame);
+    context.Draw(3, 0);
+    frame = nullptr;
+    context.PSSetShaderResources(0, 1, &frame);  // the next frame draws to it
+  }
+  rhi::ITexture* Picture() const { return picture_.get(); }
+
+ private:
+  uint32_t width_, height_;
+  rhi::Ref<rhi::IShader> vs_, ps_;
+  rhi::Ref<rhi::IRasterizerState> raster_;
+  rhi::Ref<rhi::IDepthStencilState> depth_;
+  rhi::Ref<rhi::IBlendState> blend_;
+  rhi::Ref<rhi::ITexture> picture_;
+  rhi::Ref<rhi::IRenderTargetView> target_;
+  rhi::Ref<rhi::IShaderResourceView> frame_;
+};
+
 class RendererImpl final : public Renderer {
  public:
   RendererImpl(rhi::IDevice& device, const RenderSettings& settings) : device_(device), settings_(settings) {}
@@ -49,9 +121,15 @@ class RendererImpl final : public Renderer {
     Result<GpuModel> uploaded = UploadModel(device_, model, settings_);
     if (!uploaded) return uploaded.error();
     model_ = std::move(*uploaded);
-    Result<std::unique_ptr<ITechnique>> technique = MakeSeedTechnique(device_, settings_);
+    Result<std::unique_ptr<ITechnique>> technique = settings_.technique == Technique::Seed
+                                                        ? MakeSeedTechnique(device_, settings_)
+                                                        : MakeShellsTechnique(device_, settings_);
     if (!technique) return technique.error();
     technique_ = std::move(*technique);
+    if (ResolveTarget(settings_) == TargetFormat::Unorm8) return Done{};
+    Creation creation(device_);
+    presenter_.emplace(creation, settings_, targets_.resolved.get());
+    if (creation.Failed()) return creation.Failure();
     return Done{};
   }
 
@@ -61,6 +139,7 @@ class RendererImpl final : public Renderer {
     DrawInto(targets_, in);
     if (settings_.samples > 1)
       Context().ResolveSubresource(targets_.resolved.get(), 0, targets_.color.get(), 0, targets_.format);
+    if (presenter_) presenter_->Draw(Context());
     Context().EndFrame();
   }
 
@@ -73,9 +152,25 @@ class RendererImpl final : public Renderer {
   Result<Image> ReadImage() override {
     Image image{"frame", settings_.width, settings_.height, {}};
     image.pixels.resize(size_t(image.width) * image.height * 4);
-    const rhi::Status status = device_.ReadBack(targets_.resolved.get(), 0, image.pixels.data(), image.pixels.size());
+    rhi::ITexture* picture = presenter_ ? presenter_->Picture() : targets_.resolved.get();
+    const rhi::Status status = device_.ReadBack(picture, 0, image.pixels.data(), image.pixels.size());
     if (status != rhi::Status::Ok) return DriverError(status, "cannot read the frame back");
     for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
+    return image;
+  }
+
+  Result<FloatImage> ReadPixels() override {
+    if (!presenter_)
+      return Error{ErrorCode::Usage, "a frame of 8 bits has no float pixels; choose a Float16 or Float32 target"};
+    FloatImage image{settings_.width, settings_.height, {}};
+    image.pixels.resize(size_t(image.width) * image.height);
+    const bool half = targets_.format == rhi::Format::RGBA16_Float;
+    std::vector<uint16_t> halves(half ? image.pixels.size() * 4 : 0);
+    void* const out = half ? static_cast<void*>(halves.data()) : image.pixels.data();
+    const size_t bytes = image.pixels.size() * (half ? 8 : 16);
+    const rhi::Status status = device_.ReadBack(targets_.resolved.get(), 0, out, bytes);
+    if (status != rhi::Status::Ok) return DriverError(status, "cannot read the frame back");
+    for (size_t i = 0; i < halves.size(); ++i) image.pixels[i / 4][int(i % 4)] = HalfToFloat(halves[i]);
     return image;
   }
 
@@ -111,6 +206,8 @@ class RendererImpl final : public Renderer {
     in.worldToClip = ProjectionMatrix(camera, double(settings_.width) / settings_.height) * ViewMatrix(camera);
     in.light = settings_.light;
     in.placements = placements;
+    in.comb = settings_.comb;
+    in.bend = settings_.bend;
     in.counts = counts;
     return in;
   }
@@ -119,7 +216,8 @@ class RendererImpl final : public Renderer {
     rhi::IContext& context = Context();
     rhi::IRenderTargetView* const views[] = {targets.colorView.get()};
     context.OMSetRenderTargets(1, views, targets.depthView.get());
-    const glm::vec4 background(settings_.background, 1);
+    // Techniques that blend premultiplied leave the opacity of what they drew in alpha.
+    const glm::vec4 background(settings_.background, settings_.technique == Technique::Seed ? 1 : 0);
     context.ClearRenderTargetView(targets.colorView.get(), &background.x);
     context.ClearDepthStencilView(targets.depthView.get(), true, 1, false, 0);
     const rhi::Viewport viewport{.width = float(settings_.width), .height = float(settings_.height)};
@@ -137,6 +235,7 @@ class RendererImpl final : public Renderer {
   Targets targets_;
   GpuModel model_;
   std::unique_ptr<ITechnique> technique_;
+  std::optional<Presenter> presenter_;
 };
 
 }  // namespace

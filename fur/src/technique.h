@@ -18,6 +18,8 @@ struct FrameInputs {
   glm::dvec3 eye{0};
   glm::dmat4 worldToClip{1};
   Light light;
+  glm::dvec3 comb{0};  // sideways offset of the tips relative to the fur's length, in the animal's axes
+  double bend = 2;     // exponent of the height in that offset
   std::span<const glm::dmat4> placements;
   FrameCounts* counts = nullptr;                          // never null
   rhi::IShader* countingShader = nullptr;                 // set: replaces every pixel shader
@@ -31,6 +33,7 @@ class ITechnique {
 };
 
 Result<std::unique_ptr<ITechnique>> MakeSeedTechnique(rhi::IDevice&, const RenderSettings&);
+Result<std::unique_ptr<ITechnique>> MakeShellsTechnique(rhi::IDevice&, const RenderSettings&);
 
 // Constants of one part of one animal, computed in double.
 ObjectConstants MakeObjectConstants(const glm::dmat4& objectToWorld, const FrameInputs&);

@@ -12,7 +12,8 @@ namespace fur {
 
 // How look and semantics are sampled.
 enum class Technique {
-  Seed  // the published shells and fins, the baseline: docs/seed.md
+  Seed,   // the published shells and fins, the baseline: docs/seed.md
+  Shells  // the same idea without its defects: docs/shells.md
 };
 // Lighting, colour space and handling of assets.
 enum class Look {
@@ -25,22 +26,60 @@ enum class Semantics {
   Volume  // a slab of strands: opacity grows with the length of the way through it
 };
 
+// Three ways to the same picture.
+enum class ShellMode {
+  Instanced,  // one draw, an instance for each shell
+  Draws,      // one draw for each shell
+  Amplified   // a geometry shader makes the shells of a triangle, 14 at a time
+};
+enum class FinMode {
+  Auto,       // compacted where the device has compute and indirect draws, else geometry, else pulled
+  Geometry,   // a geometry shader over line adjacency
+  Pulled,     // six vertices for each edge, made by the vertex shader
+  Compacted   // the same for the edges that a compute shader kept, by an indirect draw
+};
+// What the frame is blended in.
+enum class TargetFormat {
+  Auto,     // seed: Unorm8; shells: Float16
+  Unorm8,   // 8 bits, sRGB-encoded for look correct
+  Float16,  // brought to 8 bits at the end
+  Float32
+};
+
 struct RenderSettings {
   uint32_t width = 1280, height = 720, samples = 1;  // samples: 1 or 4
-  Technique technique = Technique::Seed;
+  Technique technique = Technique::Shells;
   Look look = Look::Correct;
-  Semantics semantics = Semantics::Sheet;
+  Semantics semantics = Semantics::Volume;
+  TargetFormat target = TargetFormat::Auto;
   uint32_t shells = 0;  // 0: as the material says
   bool drawFins = true, drawShells = true;
   glm::dvec3 background{0};  // linear for Correct, raw for Seed
   Light light;
+
+  // Technique shells only.
+  ShellMode shellMode = ShellMode::Instanced;
+  FinMode finMode = FinMode::Auto;
+  double finThreshold = 0.25;  // edges with |e.N| below it grow a fading fin, 0..1; 0: silhouettes only
+  double finOpacity = 0.9;     // of a fin on the silhouette, 0..1
+  bool backFaces = true;       // fur behind the outline, where the skin can be missed
+  bool sortAnimals = true;     // back to front
+  glm::dvec3 comb{0};          // offset of the tips relative to the fur's length, in the model's axes
+  double bend = 2;             // exponent of the height in that offset, >= 1
+  double spacing = 0;          // distance of two shells in the primitive's units: the length is N times it; 0: the coat's
 };
 
 // What one frame submits. Fragments are counted exactly, one sample for each pixel, by an untimed pass.
 struct FrameCounts {
-  uint64_t draws = 0, triangles = 0, edges = 0;  // submitted; edges: inputs of the fins' geometry shader
+  uint64_t draws = 0, triangles = 0, edges = 0, dispatches = 0;  // submitted; edges: candidates for fins
   uint64_t baseFragments = 0, finFragments = 0, shellFragments = 0;
   uint64_t skippedAnimals = 0, skippedEdges = 0, skippedShells = 0;
+};
+
+// Row 0 on top, tightly packed.
+struct FloatImage {
+  uint32_t width = 0, height = 0;
+  std::vector<glm::vec4> pixels;
 };
 
 class Renderer {
@@ -53,6 +92,9 @@ class Renderer {
   virtual Result<Done> Finish() = 0;
   // The last frame, alpha 1: as stored, so sRGB-encoded for look correct.
   virtual Result<Image> ReadImage() = 0;
+  // The last frame before it is brought to 8 bits: linear for look correct. rgb: the frame over the background; a: the
+  // opacity of what was drawn over it, 1 on skin (technique shells). Usage with a Unorm8 target.
+  virtual Result<FloatImage> ReadPixels() = 0;
   // Draws the frame once more, counting.
   virtual Result<FrameCounts> Count(const Camera&, std::span<const glm::dmat4> placements) = 0;
 };

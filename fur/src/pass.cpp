@@ -1,0 +1,142 @@
+#include "pass.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include "fur_shaders/fur_shaders.h"
+
+namespace fur {
+namespace {
+
+FrameConstants MakeFrameConstants(const FrameInputs& in) {
+  FrameConstants f{};
+  f.eyeWorld = glm::vec4(in.eye, 1);
+  f.lightDirection = glm::vec4(glm::normalize(in.light.direction), 0);
+  f.lightDiffuse = glm::vec4(in.light.diffuse, 1);
+  f.lightAmbient = glm::vec4(in.light.ambient, 1);
+  f.lightSpecular = glm::vec4(in.light.specular, 1);
+  return f;
+}
+
+// The comb is the animal's: it turns with the placement, and reaches each part's own axes by its rotation alone, since
+// it is relative to the fur's length. A part that is flattened to nothing has none.
+glm::dvec3 ToPartAxes(const glm::dmat4& transform, const glm::dvec3& v) {
+  const glm::dmat3 linear(transform);
+  const double volume = std::abs(glm::determinant(linear));
+  const glm::dvec3 turned = glm::inverse(linear) * v * std::cbrt(volume);
+  return volume > 0 && std::isfinite(turned.x + turned.y + turned.z) ? turned : glm::dvec3(0);
+}
+
+}  // namespace
+
+ObjectConstants MakeObjectConstants(const glm::dmat4& objectToWorld, const FrameInputs& in) {
+  glm::dmat4 objectToEye = objectToWorld;
+  objectToEye[3] -= glm::dvec4(in.eye, 0);
+  ObjectConstants o{};
+  o.objectToClip = in.worldToClip * objectToWorld;
+  o.objectToEye = objectToEye;
+  o.normalToWorld = glm::dmat4(glm::transpose(glm::inverse(glm::dmat3(objectToWorld))));
+  return o;
+}
+
+PassBinding::PassBinding(Creation& c)
+    : depthWrite(c.Depth({})),
+      depthRead(c.Depth({.depthWrite = false})),
+      opaque(c.Blend(rhi::Blend::One, rhi::Blend::Zero)),
+      cullBack_(c.Raster(rhi::CullMode::Back, true)),
+      cullFront_(c.Raster(rhi::CullMode::Back, false)),
+      cullNone_(c.Raster(rhi::CullMode::None, true)),
+      frame_(c.DynamicConstants(sizeof(FrameConstants), "frame constants")),
+      object_(c.DynamicConstants(sizeof(ObjectConstants), "object constants")),
+      draw_(c.DynamicConstants(sizeof(DrawConstants), "draw constants")),
+      volumeSampler_(c.Sampler(rhi::AddressMode::Wrap)) {}
+
+void PassBinding::BindFrame(rhi::IContext& context, const FrameInputs& in) const {
+  const FrameConstants frame = MakeFrameConstants(in);
+  context.UpdateConstants(frame_.get(), &frame, sizeof frame);
+  rhi::IBuffer* const buffers[] = {frame_.get(), nullptr, object_.get(), draw_.get()};
+  context.SetConstantBuffers(0, 4, buffers);
+}
+
+void PassBinding::SetMaterial(rhi::IContext& context, const GpuMaterial& m) const {
+  rhi::IBuffer* const constants[] = {m.constants.get()};
+  context.SetConstantBuffers(1, 1, constants);
+  rhi::IShaderResourceView* const views[] = {m.baseColor.get(), m.normal.get(), m.specular.get(), m.lengthMap.get(),
+                                             m.furVolume.get()};
+  rhi::ISamplerState* const samplers[] = {m.surfaceSampler.get(), volumeSampler_.get()};
+  for (const rhi::Stage stage : {rhi::Stage::Vertex, rhi::Stage::Geometry, rhi::Stage::Pixel}) {
+    context.SetShaderResources(stage, 0, 5, views);
+    context.SetSamplers(stage, 0, 2, samplers);
+  }
+}
+
+void PassBinding::SetObject(rhi::IContext& context, const FrameInputs& in, const glm::dmat4& placement,
+                            const GpuPart& part) const {
+  ObjectConstants o = MakeObjectConstants(placement * part.transform, in);
+  o.comb = glm::vec4(ToPartAxes(part.transform, in.comb), in.bend);
+  context.UpdateConstants(object_.get(), &o, sizeof o);
+}
+
+void PassBinding::SetDraw(rhi::IContext& context, const glm::vec4& values) const {
+  const DrawConstants constants{values};
+  context.UpdateConstants(draw_.get(), &constants, sizeof constants);
+}
+
+void PassBinding::SetShaders(rhi::IContext& context, const FrameInputs& in, rhi::IShader* vs, rhi::IShader* gs,
+                             rhi::IShader* ps) {
+  context.VSSetShader(vs);
+  context.GSSetShader(gs);
+  context.PSSetShader(in.countingShader ? in.countingShader : ps);
+}
+
+void PassBinding::SetVertices(rhi::IContext& context, rhi::IBuffer* vertices, uint32_t stride, rhi::IBuffer* indices) {
+  const uint32_t offset = 0;
+  context.IASetVertexBuffers(0, 1, &vertices, &stride, &offset);
+  context.IASetIndexBuffer(indices, rhi::Format::R32_UInt, 0);
+}
+
+rhi::IRasterizerState* PassBinding::Cull(const GpuPart& part, rhi::CullMode cull) const {
+  if (cull == rhi::CullMode::None) return cullNone_.get();
+  return (part.mirrored == (cull == rhi::CullMode::Back) ? cullFront_ : cullBack_).get();
+}
+
+rhi::Ref<rhi::IInputLayout> ModelLayout(Creation& c, rhi::IShader* vs) {
+  using rhi::Format;
+  constexpr rhi::InputElement kElements[] = {
+      {.semantic = "POSITION", .format = Format::RGB32_Float, .offset = offsetof(Vertex, position)},
+      {.semantic = "NORMAL", .format = Format::RGB32_Float, .offset = offsetof(Vertex, normal)},
+      {.semantic = "TANGENT", .format = Format::RGBA32_Float, .offset = offsetof(Vertex, tangent)},
+      {.semantic = "TEXCOORD", .format = Format::RG32_Float, .offset = offsetof(Vertex, uv)}};
+  rhi::Ref<rhi::IInputLayout> layout;
+  if (vs)
+    c.Check(c.Device().CreateInputLayout(kElements, uint32_t(std::size(kElements)), vs, &layout), "the vertex layout");
+  return layout;
+}
+
+BasePass::BasePass(Creation& c, Look look)
+    : vs_(c.Shader(shaders::base_VSMain)),
+      ps_(c.Shader(look == Look::Seed ? shaders::base_PSMain_seed : shaders::base_PSMain)),
+      layout_(ModelLayout(c, vs_.get())) {}
+
+void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
+                    const FrameInputs& in) const {
+  PassBinding::SetShaders(context, in, vs_.get(), nullptr, ps_.get());
+  context.IASetInputLayout(layout_.get());
+  context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
+  context.OMSetBlendState(binding.opaque.get());
+  context.OMSetDepthStencilState(binding.depthWrite.get());
+  for (const glm::dmat4& placement : in.placements)
+    for (const GpuPart& part : model.parts) {
+      const GpuMaterial& material = model.materials[part.material];
+      const GpuGeometry& g = model.geometry[part.primitive];
+      context.RSSetState(binding.Cull(part, material.doubleSided ? rhi::CullMode::None : rhi::CullMode::Back));
+      binding.SetMaterial(context, material);
+      PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.indices.get());
+      binding.SetObject(context, in, placement, part);
+      context.DrawIndexed(g.indexCount, 0, 0);
+      ++in.counts->draws;
+      in.counts->triangles += g.indexCount / 3;
+    }
+}
+
+}  // namespace fur

@@ -1,0 +1,59 @@
+// What the techniques share: states, constants, the solid pass, and how a part of an animal is bound.
+#pragma once
+
+#include "creation.h"
+#include "technique.h"
+
+namespace fur {
+
+// Registers that every pass fills alike, and the states that all use. glTF: counter-clockwise faces are front.
+class PassBinding {
+ public:
+  explicit PassBinding(Creation&);
+
+  void BindFrame(rhi::IContext&, const FrameInputs&) const;
+  // Every texture of the material on every graphics stage, t0..t4 and s0, s1 (fur_volume.hlsli); b1.
+  void SetMaterial(rhi::IContext&, const GpuMaterial&) const;
+  void SetObject(rhi::IContext&, const FrameInputs&, const glm::dmat4& placement, const GpuPart&) const;  // b2
+  void SetDraw(rhi::IContext&, const glm::vec4&) const;                                                   // b3
+  // `counting`: the shader that replaces every pixel shader.
+  static void SetShaders(rhi::IContext&, const FrameInputs&, rhi::IShader* vs, rhi::IShader* gs, rhi::IShader* ps);
+  static void SetVertices(rhi::IContext&, rhi::IBuffer* vertices, uint32_t stride, rhi::IBuffer* indices);
+  rhi::IRasterizerState* Cull(const GpuPart&, rhi::CullMode) const;
+
+  rhi::Ref<rhi::IDepthStencilState> depthWrite, depthRead;
+  rhi::Ref<rhi::IBlendState> opaque;
+
+ private:
+  rhi::Ref<rhi::IRasterizerState> cullBack_, cullFront_, cullNone_;  // cullFront: cullBack of a mirrored part
+  rhi::Ref<rhi::IBuffer> frame_, object_, draw_;
+  rhi::Ref<rhi::ISamplerState> volumeSampler_;
+};
+
+// The solid pass: skin and bald parts.
+class BasePass {
+ public:
+  BasePass(Creation&, Look);
+  void Draw(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&) const;
+
+ private:
+  rhi::Ref<rhi::IShader> vs_, ps_;
+  rhi::Ref<rhi::IInputLayout> layout_;
+};
+
+// The vertex layout of fur::Vertex.
+rhi::Ref<rhi::IInputLayout> ModelLayout(Creation&, rhi::IShader* vs);
+
+// One pass of a frame as a debug event, counted by its query where there is one.
+template <class F>
+void RunPass(rhi::IContext& context, const FrameInputs& in, Pass pass, F draw) {
+  constexpr const char* kNames[kPassCount] = {"base", "fins", "shells"};
+  rhi::IQuery* query = in.passQueries.empty() ? nullptr : in.passQueries[size_t(pass)].get();
+  context.BeginEvent(kNames[size_t(pass)]);
+  if (query) context.Begin(query);
+  draw();
+  if (query) context.End(query);
+  context.EndEvent();
+}
+
+}  // namespace fur

@@ -1,0 +1,19 @@
+// Fins by vertex pulling: six vertices for each edge of a list, or for those that a compute shader has kept (COMPACTED).
+// An edge that grows none collapses to a point.
+#include "fin_edge.hlsli"
+#include "fin_list.hlsli"
+
+#ifdef COMPACTED
+StructuredBuffer<uint> keptEdges : register(t7);
+#endif
+
+FurVarying VSMain(uint vertex : SV_VertexID) {
+  uint edge = vertex / 6u;
+#ifdef COMPACTED
+  edge = keptEdges[uint(draw.y) + edge];
+#endif
+  uint4 ends = finEdges[edge];
+  FurVertex v1 = LoadFurVertex(ends.y), v2 = LoadFurVertex(ends.z);
+  float opacity = FinOpacity(LoadFurVertex(ends.x), v1, v2, LoadFurVertex(ends.w));
+  return FinCorner(v1, v2, opacity > 0.0 ? vertex % 6u : 0u, opacity);
+}
