@@ -9,6 +9,7 @@
 #include "fur/topology.h"
 #include "gpu_constants.h"
 #include "mips.h"
+#include "volume_mips.h"
 
 namespace fur {
 namespace {
@@ -91,21 +92,16 @@ class Uploader {
     return g;
   }
 
-  // A texture with all mips; layers are stacked in `pixels`.
-  rhi::Ref<rhi::IShaderResourceView> Texture(const uint8_t* pixels, uint32_t width, uint32_t height, uint32_t layers, bool array,
-                                             MipFilter filter, const std::string& name) {
-    const size_t layerBytes = size_t(width) * height * 4;
-    std::vector<std::vector<std::vector<uint8_t>>> mips;
+  // A texture of layers with all their levels.
+  rhi::Ref<rhi::IShaderResourceView> Texture(const std::vector<MipChain>& mips, uint32_t width,
+                                             uint32_t height, bool array, rhi::Format format, const std::string& name) {
     std::vector<rhi::SubresourceData> init;
-    for (uint32_t layer = 0; layer < layers; ++layer)
-      mips.push_back(MakeMips({pixels + layer * layerBytes, layerBytes}, width, height, filter));
     for (const auto& chain : mips)
       for (uint32_t level = 0; level < chain.size(); ++level)
         init.push_back({chain[level].data(), std::max(1u, width >> level) * 4, 0});
     rhi::TextureDesc desc{.dim = array ? rhi::TextureDim::Tex2DArray : rhi::TextureDim::Tex2D,
-                          .width = width, .height = height, .depthOrArray = layers,
-                          .mipLevels = uint32_t(mips[0].size()),
-                          .format = filter == MipFilter::Srgb ? rhi::Format::RGBA8_UNorm_sRGB : rhi::Format::RGBA8_UNorm,
+                          .width = width, .height = height, .depthOrArray = uint32_t(mips.size()),
+                          .mipLevels = uint32_t(mips[0].size()), .format = format,
                           .usage = rhi::Usage::Immutable, .name = name.c_str()};
     rhi::Ref<rhi::ITexture> texture;
     rhi::Ref<rhi::IShaderResourceView> view;
@@ -115,7 +111,8 @@ class Uploader {
   }
 
   rhi::Ref<rhi::IShaderResourceView> ImageTexture(const Image& image, MipFilter filter) {
-    return Texture(image.pixels.data(), image.width, image.height, 1, false, filter, image.name);
+    return Texture({MakeMips(image.pixels, image.width, image.height, filter)}, image.width, image.height, false,
+                   filter == MipFilter::Srgb ? rhi::Format::RGBA8_UNorm_sRGB : rhi::Format::RGBA8_UNorm, image.name);
   }
 
   // An image of the model, uploaded once for each filter however many materials use it.
@@ -126,7 +123,7 @@ class Uploader {
   }
 
   rhi::Ref<rhi::IShaderResourceView> OneTexel(std::array<uint8_t, 4> value, const std::string& name) {
-    return Texture(value.data(), 1, 1, 1, false, MipFilter::Raw, name);
+    return Texture({{{value.begin(), value.end()}}}, 1, 1, false, rhi::Format::RGBA8_UNorm, name);
   }
 
   // Look seed has no colour factors: they are multiplied into the texels, as the published demo would have painted them.
@@ -156,14 +153,23 @@ class Uploader {
   }
 
   // Look correct empties the top slice, which the fur model asks for; look seed takes the asset as shipped.
-  rhi::Ref<rhi::IShaderResourceView> Volume(const FurVolume& volume) {
-    std::vector<uint8_t> pixels = volume.pixels;
+  std::vector<MipChain> VolumeMips(const FurVolume& volume, double heightFalloff) const {
+    const size_t texels = size_t(volume.width) * volume.height;
     if (Correct()) {
-      const size_t layerTexels = size_t(volume.width) * volume.height;
-      for (size_t i = layerTexels * (volume.layers - 1); i < layerTexels * volume.layers; ++i) pixels[i * 4 + 3] = 0;
+      FurVolume emptied = volume;
+      for (size_t i = texels * (volume.layers - 1); i < texels * volume.layers; ++i) emptied.pixels[i * 4 + 3] = 0;
+      return MakeVolumeMips(emptied, heightFalloff);
     }
-    return Texture(pixels.data(), volume.width, volume.height, volume.layers, true,
-                   Correct() ? MipFilter::AlphaWeighted : MipFilter::Raw, volume.name);
+    std::vector<MipChain> mips;
+    for (size_t layer = 0; layer < volume.layers; ++layer)
+      mips.push_back(MakeMips({&volume.pixels[layer * texels * 4], texels * 4}, volume.width, volume.height,
+                              MipFilter::Raw));
+    return mips;
+  }
+
+  rhi::Ref<rhi::IShaderResourceView> Volume(const FurVolume& volume, double heightFalloff) {
+    return Texture(VolumeMips(volume, heightFalloff), volume.width, volume.height, true, rhi::Format::RGBA8_UNorm,
+                   volume.name);
   }
 
   MaterialConstants SurfaceConstants(const Material& m) const {
@@ -183,12 +189,12 @@ class Uploader {
     const FurVolume& volume = model_.volumes[size_t(fur.volume)];
     const FurParams& p = fur.params;
     gpu->shells = settings_.shells ? settings_.shells : p.shells ? p.shells : std::max(16u, volume.layers);
-    gpu->furVolume = Volume(volume);
     gpu->lengthMap = fur.lengthMap < 0 ? OneTexel({255, 255, 255, 255}, "full length")
                                        : ModelTexture(fur.lengthMap, MipFilter::Raw);
     // The demo's shells lose coverage with height whatever the volume holds.
     const double falloff = Correct() ? p.heightFalloff : 1;
     const double length = settings_.spacing > 0 ? settings_.spacing * gpu->shells : p.length;
+    gpu->furVolume = Volume(volume, falloff);
     c->furShape = {float(length), float(p.layerUvScale), float(volume.layers), float(gpu->shells)};
     c->furLight = {float(p.selfShadow), float(p.specularPower), float(p.specularScale), float(falloff)};
     // The longest way through one shell's slab, and the published slabs that one shell stands for: docs/accuracy.md.

@@ -27,16 +27,11 @@ Texel Read(const uint8_t* p, MipFilter filter) {
   return t;
 }
 
-Texel Average(const std::array<Texel, 4>& in, MipFilter filter) {
-  Texel sum{};
-  double weights = 0;
-  const double coverage = in[0][3] + in[1][3] + in[2][3] + in[3][3];
-  for (const Texel& t : in) {
-    const double w = filter == MipFilter::AlphaWeighted && coverage > 0 ? t[3] : 1;
-    for (size_t c = 0; c < 3; ++c) sum[c] += t[c] * w;
-    weights += w;
-  }
-  return {sum[0] / weights, sum[1] / weights, sum[2] / weights, coverage / 4};
+Texel Average(const std::array<Texel, 4>& in) {
+  Texel mean{};
+  for (const Texel& t : in)
+    for (size_t c = 0; c < 4; ++c) mean[c] += t[c] / 4;
+  return mean;
 }
 
 void Write(const Texel& t, MipFilter filter, uint8_t* p) {
@@ -54,7 +49,7 @@ std::vector<uint8_t> Halve(std::span<const uint8_t> in, uint32_t w, uint32_t h, 
         const uint32_t sx = std::min(2 * x + (k & 1), w - 1), sy = std::min(2 * y + (k >> 1), h - 1);
         box[k] = Read(&in[(size_t(sy) * w + sx) * 4], filter);
       }
-      Write(Average(box, filter), filter, &out[(size_t(y) * w2 + x) * 4]);
+      Write(Average(box), filter, &out[(size_t(y) * w2 + x) * 4]);
     }
   return out;
 }
@@ -64,8 +59,8 @@ std::vector<uint8_t> Halve(std::span<const uint8_t> in, uint32_t w, uint32_t h, 
 double SrgbToLinear(double e) { return e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4); }
 double LinearToSrgb(double l) { return l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055; }
 
-std::vector<std::vector<uint8_t>> MakeMips(std::span<const uint8_t> rgba, uint32_t width, uint32_t height, MipFilter filter) {
-  std::vector<std::vector<uint8_t>> levels{{rgba.begin(), rgba.end()}};
+MipChain MakeMips(std::span<const uint8_t> rgba, uint32_t width, uint32_t height, MipFilter filter) {
+  MipChain levels{{rgba.begin(), rgba.end()}};
   while (width > 1 || height > 1) {
     levels.push_back(Halve(levels.back(), width, height, filter));
     width = std::max(1u, width / 2);

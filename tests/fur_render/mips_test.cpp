@@ -9,7 +9,7 @@ namespace fur::test {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
-constexpr MipFilter kFilters[] = {MipFilter::Raw, MipFilter::Srgb, MipFilter::AlphaWeighted};
+constexpr MipFilter kFilters[] = {MipFilter::Raw, MipFilter::Srgb};
 
 Bytes Last(const Bytes& rgba, uint32_t width, uint32_t height, MipFilter filter) {
   return MakeMips(rgba, width, height, filter).back();
@@ -65,19 +65,6 @@ TEST(Mips, SrgbCurve) {
   EXPECT_NEAR(SrgbToLinear(0.5), 0.21404114048, 1e-9);
   EXPECT_NEAR(LinearToSrgb(0.18), 0.46135612950, 1e-9);
   EXPECT_NEAR(SrgbToLinear(0.04045), SrgbToLinear(0.04045 + 1e-9), 1e-7);
-}
-
-// An empty texel has no direction to contribute.
-TEST(Mips, CoverageWeighsDirections) {
-  const Bytes one{200, 100, 50, 255, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0};
-  EXPECT_EQ(Last(one, 2, 2, MipFilter::AlphaWeighted), (Bytes{200, 100, 50, 64}));
-  const Bytes two{200, 100, 50, 150, 0, 0, 0, 0, 100, 200, 50, 50, 255, 255, 255, 0};
-  EXPECT_EQ(Last(two, 2, 2, MipFilter::AlphaWeighted), (Bytes{175, 125, 50, 50}));
-}
-
-TEST(Mips, NoCoverageAtAllGivesThePlainMean) {
-  const Bytes empty{0, 10, 20, 0, 100, 10, 20, 0, 0, 10, 20, 0, 100, 10, 20, 0};
-  EXPECT_EQ(Last(empty, 2, 2, MipFilter::AlphaWeighted), (Bytes{50, 10, 20, 0}));
 }
 
 TEST(Mips, OneColorStaysOneColorAtOddSizes) {

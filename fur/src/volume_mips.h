@@ -1,0 +1,18 @@
+// Mips of a fur volume, judged by what the whole stack lets through, not by each slice alone: docs/accuracy.md states
+// the law, docs/measured.md how it compares with others.
+#pragma once
+
+#include <vector>
+
+#include "fur/model.h"
+#include "mips.h"
+
+namespace fur {
+
+// For each slice from the root, its levels. A level's coverage is the mean of the texels below it, weighted by how
+// visible each is from above through the composited coverage a_j (1 - heightFalloff j / N0); what is stored stays a_j,
+// the shader takes the falloff off. rgb is the mean weighted by coverage alone: its length tells how much the
+// directions agree.
+std::vector<MipChain> MakeVolumeMips(const FurVolume&, double heightFalloff);
+
+}  // namespace fur
