@@ -16,8 +16,8 @@ float4 ReadFur(float2 tiles, float height) {
 #ifdef BETWEEN_SLICES
   float below = floor(slice);
   float above = min(below + 1.0, furShape.z - 1.0);
-  float4 fur = lerp(furVolume.Sample(volumeSampler, float3(tiles, below)),
-                    furVolume.Sample(volumeSampler, float3(tiles, above)), slice - below);
+  float4 lower = furVolume.Sample(volumeSampler, float3(tiles, below));
+  float4 fur = lower + (furVolume.Sample(volumeSampler, float3(tiles, above)) - lower) * (slice - below);
 #else
   float4 fur = furVolume.Sample(volumeSampler, float3(tiles, slice));
 #endif

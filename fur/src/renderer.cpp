@@ -68,11 +68,11 @@ class Presenter {
       : width_(s.width),
         height_(s.height),
         vs_(c.Shader(shaders::present_VSMain)),
-        ps_(c.Shader(shaders::present_PSMain)),
+        ps_(c.Shader(s.look == Look::Correct ? shaders::present_PSMain_srgb : shaders::present_PSMain)),
         raster_(c.Raster(rhi::CullMode::None, false)),
         depth_(c.Depth({.depthEnable = false, .depthWrite = false})),
         blend_(c.Blend(rhi::Blend::One, rhi::Blend::Zero)) {
-    c.Check(c.Device().CreateTexture({.width = s.width, .height = s.height, .format = PictureFormat(s.look),
+    c.Check(c.Device().CreateTexture({.width = s.width, .height = s.height, .format = rhi::Format::RGBA8_UNorm,
                                       .bind = rhi::Bind::RenderTarget, .name = "picture"},
                                      nullptr, &picture_),
             "the picture");

@@ -11,7 +11,7 @@ class Counts : public OnEachBackend {};
 INSTANTIATE_TEST_SUITE_P(Backends, Counts, testing::ValuesIn(Backends()), BackendName);
 
 constexpr uint64_t kPixels = 64 * 48;
-RenderSettings Settings(uint32_t shells) { return {.width = 64, .height = 48, .shells = shells}; }
+RenderSettings Settings(uint32_t shells) { return {.width = 64, .height = 48, .technique = Technique::Seed, .semantics = Semantics::Sheet, .shells = shells}; }
 
 Model FullScreen() { return FurredSquare(40, {180, 120, 60, 255}, UniformCoat(16, 128)); }
 

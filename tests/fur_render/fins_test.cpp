@@ -22,7 +22,12 @@ Coat LongCoat() {
 }
 
 RenderSettings Settings(Look look = Look::Correct) {
-  return {.width = 96, .height = 64, .look = look, .drawShells = false};
+  return {.width = 96,
+          .height = 64,
+          .technique = Technique::Seed,
+          .look = look,
+          .semantics = Semantics::Sheet,
+          .drawShells = false};
 }
 
 // ---------------------------------------------------------------------------------------------- the published test

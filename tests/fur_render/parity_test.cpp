@@ -10,6 +10,7 @@ namespace fur::test {
 namespace {
 
 struct Combination {
+  Technique technique;
   Look look;
   Semantics semantics;
   uint32_t samples;
@@ -18,18 +19,20 @@ struct Combination {
 class Parity : public testing::TestWithParam<Combination> {};
 
 void PrintTo(const Combination& c, std::ostream* out) {
-  *out << "look " << int(c.look) << ", semantics " << int(c.semantics) << ", " << c.samples << " samples";
+  *out << "technique " << int(c.technique) << ", look " << int(c.look) << ", semantics " << int(c.semantics) << ", " << c.samples << " samples";
 }
 std::string CombinationName(const testing::TestParamInfo<Combination>& info) {
-  return std::string(info.param.look == Look::Seed ? "seed" : "correct") +
+  return std::string(info.param.technique == Technique::Seed ? "seed_" : "shells_") +
+         (info.param.look == Look::Seed ? "seed" : "correct") +
          (info.param.semantics == Semantics::Sheet ? "_sheet_" : "_volume_") + std::to_string(info.param.samples);
 }
 
 std::vector<Combination> AllCombinations() {
   std::vector<Combination> all;
-  for (const Look look : {Look::Seed, Look::Correct})
-    for (const Semantics semantics : {Semantics::Sheet, Semantics::Volume})
-      for (const uint32_t samples : {1u, 4u}) all.push_back({look, semantics, samples});
+  for (const Technique technique : {Technique::Seed, Technique::Shells})
+    for (const Look look : {Look::Seed, Look::Correct})
+      for (const Semantics semantics : {Semantics::Sheet, Semantics::Volume})
+        for (const uint32_t samples : {1u, 4u}) all.push_back({technique, look, semantics, samples});
   return all;
 }
 INSTANTIATE_TEST_SUITE_P(All, Parity, testing::ValuesIn(AllCombinations()), CombinationName);
@@ -69,23 +72,44 @@ void ExpectSameFrames(const RenderSettings& settings, const Model& model, const 
 }
 
 RenderSettings Settings(const Combination& c) {
-  return {.width = 160, .height = 120, .samples = c.samples, .look = c.look, .semantics = c.semantics};
+  return {.width = 160,
+          .height = 120,
+          .samples = c.samples,
+          .technique = c.technique,
+          .look = c.look,
+          .semantics = c.semantics};
 }
 
 TEST_P(Parity, BuiltinAnimal) { ExpectSameFrames(Settings(GetParam()), Animal(), CloseCamera(), PlaceAnimals(1, 1)); }
 
 // Overlapping animals, some cut by the picture's edge, on the published camera.
 TEST(ParityField, FiveAnimals) {
-  RenderSettings settings = Settings({Look::Correct, Semantics::Sheet, 1});
+  RenderSettings settings = Settings({Technique::Shells, Look::Correct, Semantics::Volume, 1});
   settings.background = {0.1, 0.2, 0.3};
   ExpectSameFrames(settings, Animal(), {}, PlaceAnimals(5, 0.25));
 }
 
 // Slices that fall between shells must round alike.
 TEST(ParityField, MoreShellsThanSlices) {
-  RenderSettings settings = Settings({Look::Seed, Semantics::Sheet, 1});
+  RenderSettings settings = Settings({Technique::Seed, Look::Seed, Semantics::Sheet, 1});
   settings.shells = 32;
   ExpectSameFrames(settings, Animal(), CloseCamera(), PlaceAnimals(1, 1));
+}
+
+// Between two slices, and all of the shells' other ways and switches.
+TEST(ParityField, ShellsInEveryMode) {
+  RenderSettings settings = Settings({Technique::Shells, Look::Correct, Semantics::Volume, 1});
+  settings.comb = {0.2, -0.5, 0.7};
+  for (const uint32_t shells : {5u, 17u, 40u})
+    for (const ShellMode mode : {ShellMode::Instanced, ShellMode::Draws, ShellMode::Amplified})
+      for (const FinMode fins : {FinMode::Geometry, FinMode::Pulled, FinMode::Compacted}) {
+        settings.shells = shells;
+        settings.shellMode = mode;
+        settings.finMode = fins;
+        SCOPED_TRACE(std::to_string(shells) + " shells, mode " + std::to_string(int(mode)) + ", fins " +
+                     std::to_string(int(fins)));
+        ExpectSameFrames(settings, Animal(), CloseCamera(), PlaceAnimals(1, 1));
+      }
 }
 
 // A second frame on the same renderer, and one on a second renderer of the same device.
@@ -93,7 +117,7 @@ TEST(ParityField, FramesRepeatExactly) {
   for (const BackendCase& backend : Backends()) {
     TestDevice device(backend);
     ASSERT_TRUE(device);
-    const RenderSettings settings = Settings({Look::Correct, Semantics::Sheet, 1});
+    const RenderSettings settings = Settings({Technique::Shells, Look::Correct, Semantics::Volume, 1});
     const std::vector<glm::dmat4> placements = PlaceAnimals(1, 1);
     Result<std::unique_ptr<Renderer>> renderer = MakeRenderer(*device, Animal(), settings);
     ASSERT_TRUE(renderer) << renderer.error().message;

@@ -35,6 +35,7 @@ Coat VariedCoat(uint32_t slices) {
 void ExpectComposite(TestDevice& device, const SquareScene& scene, const Camera& camera, const std::string& what) {
   const RenderSettings settings{.width = kWidth,
                                 .height = kHeight,
+                                .technique = Technique::Seed,
                                 .look = scene.look,
                                 .semantics = scene.semantics,
                                 .shells = scene.shells,
@@ -103,7 +104,11 @@ TEST_P(Shells, NoDirectionMeansStraightUp) {
   SquareScene scene{.look = Look::Correct, .light = kSide, .color = {180, 120, 60, 255}};
   scene.coat = UniformCoat(16, 128, {128, 127, 128});
   ExpectComposite(*device_, scene, CameraAt(3, 30, 0), "no direction");
-  const RenderSettings settings{.width = kWidth, .height = kHeight, .light = kSide};
+  const RenderSettings settings{.width = kWidth,
+                                .height = kHeight,
+                                .technique = Technique::Seed,
+                                .semantics = Semantics::Sheet,
+                                .light = kSide};
   const Frame none = Render(*device_, FurredSquare(40, scene.color, scene.coat), settings, CameraAt(3, 30, 0));
   const Frame up = Render(*device_, FurredSquare(40, scene.color, UniformCoat(16, 128, {128, 128, 255})), settings,
                           CameraAt(3, 30, 0));
@@ -119,6 +124,7 @@ TEST_P(Shells, VolumeOpacityGrowsWithThePath) {
       .direction = {1, 0, 0}, .diffuse = glm::dvec3(1.5), .ambient = glm::dvec3(0), .specular = glm::dvec3(0)};
   RenderSettings settings{.width = kWidth,
                           .height = kHeight,
+                          .technique = Technique::Seed,
                           .look = Look::Correct,
                           .semantics = Semantics::Volume,
                           .shells = 2,
@@ -147,7 +153,13 @@ TEST_P(Shells, NoShellsShowTheSkin) {
 TEST_P(Shells, HeightIsTheLengthTimesTheShell) {
   Coat coat = UniformCoat(4, 255);
   coat.length = 1;
-  const RenderSettings settings{.width = 65, .height = 65, .look = Look::Seed, .shells = 4, .drawFins = false};
+  const RenderSettings settings{.width = 65,
+                                .height = 65,
+                                .technique = Technique::Seed,
+                                .look = Look::Seed,
+                                .semantics = Semantics::Sheet,
+                                .shells = 4,
+                                .drawFins = false};
   // From above at 45 degrees: shell i of 4 of the unit square rises by (i + 1) / 4 along +Z.
   const Camera camera = CameraAt(6, 0, 45, 30);
   const Frame frame = Render(*device_, FurredSquare(0.5, {255, 255, 255, 255}, coat), settings, camera);

@@ -29,6 +29,8 @@ const char* RefusedExt(uint32_t op) {
     case GLSLstd450Distance: return "distance()";
     case GLSLstd450Reflect: return "reflect()";
     case GLSLstd450Refract: return "refract()";
+    case GLSLstd450FMix: return "lerp()";
+    case GLSLstd450SmoothStep: return "smoothstep()";
     case GLSLstd450FaceForward: return "faceforward()";
     case GLSLstd450Cross: return "cross()";
     case GLSLstd450Determinant: return "determinant()";
