@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fur/fur_uv.h"
 #include "fur/topology.h"
 
 namespace fur {
@@ -110,13 +111,19 @@ class SkinBuilder {
     lines_ = LineAdjacency(skin.vertices, skin.indices, weld_);
   }
 
-  FurMesh Build(uint32_t rangeIndex, FurTiling) const {
+  FurMesh Build(uint32_t rangeIndex, FurTiling tiling) const {
     const Skin::Range& range = skin_.ranges[rangeIndex];
     const Primitive& primitive = model_.primitives[range.primitive];
     FurMesh mesh;
-    const double scale = model_.materials[primitive.material].fur->params.layerUvScale;
     for (uint32_t v = 0; v < primitive.vertices.size(); ++v)
-      mesh.vertices.push_back(MakeVertex(range.firstVertex + v, primitive.vertices[v], scale));
+      mesh.vertices.push_back(MakeVertex(range.firstVertex + v, primitive.vertices[v]));
+    const double tiles = model_.materials[primitive.material].fur->params.layerUvScale;
+    if (tiling == FurTiling::Model) {
+      for (uint32_t v = 0; v < primitive.vertices.size(); ++v)
+        mesh.vertices[v].furUv = glm::vec4(glm::vec2(glm::dvec2(primitive.vertices[v].uv) * tiles), 0, 0);
+    } else {
+      TileEvenly(primitive, tiles, &mesh);
+    }
     KeepTriangles(primitive, &mesh);
     KeepEdges(rangeIndex, uint32_t(primitive.vertices.size()), &mesh);
     return mesh;
@@ -148,11 +155,35 @@ class SkinBuilder {
     }
   }
 
-  FurVertex MakeVertex(uint32_t skinVertex, const Vertex& v, double tiles) const {
+  // As many tiles on the whole skin as the model's map times `tiles` would put there, equally dense everywhere.
+  static void TileEvenly(const Primitive& primitive, double tiles, FurMesh* mesh) {
+    const FurUv even = MakeFurUv(primitive);
+    const double perUnit = tiles * MeanUvScale(primitive);
+    for (size_t v = 0; v < primitive.vertices.size(); ++v) {
+      mesh->vertices[v].furUv = glm::vec4(glm::vec2(even.uv[v] * perUnit), 0, 0);
+      mesh->vertices[v].tangent = glm::vec4(glm::vec3(even.tangent[v]), even.handedness[v]);
+    }
+  }
+
+  // The model's texture coordinates for one unit of length, in the mean over the skin; 1 where it has no area.
+  static double MeanUvScale(const Primitive& p) {
+    double skin = 0, uv = 0;
+    for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+      const Vertex &a = p.vertices[p.indices[i]], &b = p.vertices[p.indices[i + 1]], &c = p.vertices[p.indices[i + 2]];
+      const glm::dvec3 ab = glm::dvec3(b.position) - glm::dvec3(a.position);
+      const glm::dvec3 ac = glm::dvec3(c.position) - glm::dvec3(a.position);
+      const glm::dvec2 u = glm::dvec2(b.uv) - glm::dvec2(a.uv), v = glm::dvec2(c.uv) - glm::dvec2(a.uv);
+      skin += glm::length(glm::cross(ab, ac));
+      uv += std::abs(u.x * v.y - u.y * v.x);
+    }
+    return skin > 0 && uv > 0 ? std::sqrt(uv / skin) : 1;
+  }
+
+  FurVertex MakeVertex(uint32_t skinVertex, const Vertex& v) const {
     const Root& root = roots_[weld_.welded[skinVertex]];
     const glm::vec3 direction = root.direction == glm::dvec3(0) ? v.normal : glm::vec3(root.direction);
     return {glm::vec4(v.position, float(root.length)), glm::vec4(direction, v.uv.x), v.tangent,
-            glm::vec4(v.normal, v.uv.y), glm::vec4(glm::vec2(glm::dvec2(v.uv) * tiles), 0, 0)};
+            glm::vec4(v.normal, v.uv.y), glm::vec4(0)};
   }
 
   bool Bald(uint32_t skinVertex) const { return roots_[weld_.welded[skinVertex]].length <= 0; }
@@ -190,7 +221,7 @@ class SkinBuilder {
   uint32_t Ghost(uint32_t skinVertex, uint32_t* known, FurMesh* mesh) const {
     if (*known != kNone) return *known;
     *known = uint32_t(mesh->vertices.size());
-    mesh->vertices.push_back(MakeVertex(skinVertex, skin_.vertices[skinVertex], 1));
+    mesh->vertices.push_back(MakeVertex(skinVertex, skin_.vertices[skinVertex]));
     return *known;
   }
 
