@@ -160,7 +160,8 @@ class SkinBuilder {
     const FurUv even = MakeFurUv(primitive);
     const double perUnit = tiles * MeanUvScale(primitive);
     for (size_t v = 0; v < primitive.vertices.size(); ++v) {
-      mesh->vertices[v].furUv = glm::vec4(glm::vec2(even.uv[v] * perUnit), 0, 0);
+      // A volume's y axis runs up its pictures, against v (fur/model.h); the even map's frame runs along v.
+      mesh->vertices[v].furUv = glm::vec4(glm::vec2(even.uv[v] * glm::dvec2(perUnit, -perUnit)), 0, 0);
       mesh->vertices[v].tangent = glm::vec4(glm::vec3(even.tangent[v]), even.handedness[v]);
     }
   }

@@ -1,5 +1,6 @@
 #include "fur/renderer.h"
 
+#include <algorithm>
 #include <array>
 #include <glm/gtc/packing.hpp>
 #include <optional>
@@ -23,13 +24,24 @@ rhi::Format PictureFormat(Look look) {
   return look == Look::Correct ? rhi::Format::RGBA8_UNorm_sRGB : rhi::Format::RGBA8_UNorm;
 }
 
-TargetFormat ResolveTarget(const RenderSettings& s) {
+// Half floats lose up to 2^-11 of the value at every shell (llvmpipe cuts off), which 32 shells keep below 1/255.
+constexpr uint32_t kMostShellsInHalf = 32;
+
+// The most shells that a material of the model is drawn with.
+uint32_t MostShells(const GpuModel& model) {
+  uint32_t most = 0;
+  for (const GpuMaterial& m : model.materials) most = std::max(most, m.shells);
+  return most;
+}
+
+TargetFormat ResolveTarget(const RenderSettings& s, uint32_t shells) {
   if (s.target != TargetFormat::Auto) return s.target;
-  return s.technique == Technique::Seed ? TargetFormat::Unorm8 : TargetFormat::Float16;
+  if (s.technique == Technique::Seed) return TargetFormat::Unorm8;
+  return shells > kMostShellsInHalf ? TargetFormat::Float32 : TargetFormat::Float16;
 }
 
 rhi::Format FrameFormat(const RenderSettings& s) {
-  switch (ResolveTarget(s)) {
+  switch (s.target) {
     case TargetFormat::Float16: return rhi::Format::RGBA16_Float;
     case TargetFormat::Float32: return rhi::Format::RGBA32_Float;
     default: return PictureFormat(s.look);
@@ -116,17 +128,18 @@ class RendererImpl final : public Renderer {
   RendererImpl(rhi::IDevice& device, const RenderSettings& settings) : device_(device), settings_(settings) {}
 
   Result<Done> Init(const Model& model) {
-    const rhi::Status status = MakeTargets(device_, settings_, settings_.samples, &targets_);
-    if (status != rhi::Status::Ok) return DriverError(status, "cannot create the targets");
     Result<GpuModel> uploaded = UploadModel(device_, model, settings_);
     if (!uploaded) return uploaded.error();
     model_ = std::move(*uploaded);
+    settings_.target = ResolveTarget(settings_, MostShells(model_));
+    const rhi::Status status = MakeTargets(device_, settings_, settings_.samples, &targets_);
+    if (status != rhi::Status::Ok) return DriverError(status, "cannot create the targets");
     Result<std::unique_ptr<ITechnique>> technique = settings_.technique == Technique::Seed
                                                         ? MakeSeedTechnique(device_, settings_)
                                                         : MakeShellsTechnique(device_, settings_);
     if (!technique) return technique.error();
     technique_ = std::move(*technique);
-    if (ResolveTarget(settings_) == TargetFormat::Unorm8) return Done{};
+    if (settings_.target == TargetFormat::Unorm8) return Done{};
     Creation creation(device_);
     presenter_.emplace(creation, settings_, targets_.resolved.get());
     if (creation.Failed()) return creation.Failure();

@@ -223,7 +223,7 @@ class Slice {
     FillDirections();
     for (size_t i = 0; i < open_.size(); ++i, rgba += 4) {
       const dvec3 t = glm::normalize(tangent_[i]);
-      for (int c = 0; c < 3; ++c) rgba[c] = ToByte(t[c] * 0.5 + 0.5);
+      for (int c = 0; c < 3; ++c) rgba[c] = ToByte((c == 1 ? -t[c] : t[c]) * 0.5 + 0.5);  // y is up, rows run down
       rgba[3] = ToByte(1 - open_[i]);
     }
   }

@@ -98,6 +98,39 @@ glm::dvec4 ShellColor(const SquareScene& s, const glm::dvec3& ray, uint32_t shel
   return glm::dvec4(Clamped(color), ShellOpacity(s, ray, slice, height));
 }
 
+// Slices as the technique reads them: linear between their middles (j + 1/2) / N0, clamped at the ends.
+glm::dvec4 MidpointShell(const SquareScene& s, const glm::dvec3& ray, uint32_t shell) {
+  const auto slices = double(s.coat.slices.size());
+  const double h = (shell + 0.5) / s.shells, z = std::clamp(h * slices - 0.5, 0.0, slices - 1);
+  const auto below = size_t(z), above = std::min(below + 1, s.coat.slices.size() - 1);
+  glm::dvec4 texel(0);
+  for (const auto& [slice, weight] : {std::pair{below, 1 - (z - double(below))}, {above, z - double(below)}}) {
+    const Texel& t = s.coat.slices[slice];
+    const bool emptied = s.look == Look::Correct && slice == s.coat.slices.size() - 1;
+    texel += glm::dvec4(t[0], t[1], t[2], emptied ? 0 : t[3]) / 255.0 * weight;
+  }
+  const double falloff = s.look == Look::Seed ? 1 : 0;
+  const double coverage = std::min(texel.w * (1 - falloff * z / slices), 0.999);
+  double exponent = slices / s.shells;
+  if (s.semantics == Semantics::Volume) exponent /= std::max(std::abs(ray.z), 0.25 / std::sqrt(double(s.shells)));
+  const glm::dvec3 t = glm::dvec3(texel) * 2.0 - 1.0;
+  const glm::dmat3 frame(s.tangent, glm::cross(glm::dvec3(0, 0, 1), s.tangent), glm::dvec3(0, 0, 1));
+  const glm::dvec3 strand = glm::length(t) < 1.0 / 64 ? glm::dvec3(0, 0, 1) : glm::normalize(frame * t);
+  const glm::dvec3 color = s.look == Look::Seed ? SeedShading(s, ray, strand, std::max(h - 0.5 / slices, 0.0))
+                                                : CorrectShading(s, ray, strand, h);
+  return glm::dvec4(color, 1 - std::pow(1 - coverage, exponent));
+}
+
+glm::dvec3 CompositeMidpoints(const SquareScene& s, const glm::dvec3& ray, double end) {
+  glm::dvec3 color = SkinColor(s, ray);
+  for (uint32_t shell = 0; shell < s.shells; ++shell) {
+    if ((shell + 0.5) / s.shells > end) break;
+    const glm::dvec4 over = MidpointShell(s, ray, shell);
+    color = glm::mix(color, glm::dvec3(over), over.w);
+  }
+  return color;
+}
+
 glm::dvec3 Stored(Look look, const glm::dvec3& c) {
   return look == Look::Seed ? c : glm::dvec3(Encode(c.x), Encode(c.y), Encode(c.z));
 }

@@ -21,6 +21,7 @@ struct SquareScene {
   Texel color{255, 255, 255, 255};
   Coat coat;
   uint32_t shells = 16;
+  glm::dvec3 tangent{1, 0, 0};  // x axis of the packed strands; z is +Z
 };
 
 // The way from the eye through the middle of a pixel, unit.
@@ -36,5 +37,10 @@ glm::dvec4 ShellColor(const SquareScene&, const glm::dvec3& ray, uint32_t shell)
 // All shells over the skin in exact arithmetic, as stored in the picture: 0..1, sRGB-encoded for look correct.
 glm::dvec3 Composite(const SquareScene&, const glm::dvec3& ray);
 glm::dvec3 Stored(Look, const glm::dvec3& color);
+
+// The technique shells, docs/accuracy.md: colour and opacity of one midpoint shell, and all of them over the skin, in
+// the look's own space, before it is stored. Fur above `end` (height, 0..1) is not there.
+glm::dvec4 MidpointShell(const SquareScene&, const glm::dvec3& ray, uint32_t shell);
+glm::dvec3 CompositeMidpoints(const SquareScene&, const glm::dvec3& ray, double end = 1);
 
 }  // namespace fur::test

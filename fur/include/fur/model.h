@@ -19,8 +19,8 @@ struct Image {
   std::vector<uint8_t> pixels;
 };
 
-// The fur volume: N0 slices, slice 0 at the root. RGB: packed strand tangent (t = 2 rgb - 1, tangent space, x along the
-// surface tangent, z along the normal); A: coverage. Tiles in u and v. pixels.size() == width * height * layers * 4.
+// The fur volume: N0 slices, slice 0 at the root. RGB: packed strand tangent (t = 2 rgb - 1, tangent space as glTF's
+// normal maps: x along u, y up the picture, against v, z along the normal); A: coverage. Tiles in u and v. pixels.size() == width * height * layers * 4.
 struct FurVolume {
   std::string name;
   uint32_t width = 0, height = 0, layers = 0;

@@ -40,7 +40,7 @@ enum class FinMode {
 };
 // What the frame is blended in.
 enum class TargetFormat {
-  Auto,     // seed: Unorm8; shells: Float16
+  Auto,     // seed: Unorm8; shells: Float16, above 32 shells Float32
   Unorm8,   // 8 bits, sRGB-encoded for look correct
   Float16,  // brought to 8 bits at the end
   Float32
