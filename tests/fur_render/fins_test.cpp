@@ -2,12 +2,12 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "emitted.h"
 #include "fur/gltf.h"
 #include "fur/topology.h"
 #include "models.h"
 #include "oracle.h"
 #include "support.h"
-#include "technique.h"
 
 namespace fur::test {
 namespace {
@@ -51,61 +51,6 @@ uint64_t ExpectedFins(const Primitive& p, const glm::dvec3& eye) {
   return fins;
 }
 
-// -------------------------------------------------------------------------------- counting what the shader emits
-struct Probe {
-  rhi::Ref<rhi::ITexture> color, depth;
-  rhi::Ref<rhi::IRenderTargetView> colorView;
-  rhi::Ref<rhi::IDepthStencilView> depthView;
-  rhi::Ref<rhi::IQuery> query;
-};
-
-Probe MakeProbe(rhi::IDevice& device) {
-  Probe p;
-  rhi::TextureDesc desc{
-      .width = 96, .height = 64, .format = rhi::Format::RGBA8_UNorm_sRGB, .bind = rhi::Bind::RenderTarget};
-  EXPECT_EQ(device.CreateTexture(desc, nullptr, &p.color), rhi::Status::Ok);
-  desc.format = rhi::Format::D32_Float;
-  desc.bind = rhi::Bind::DepthStencil;
-  EXPECT_EQ(device.CreateTexture(desc, nullptr, &p.depth), rhi::Status::Ok);
-  EXPECT_EQ(device.CreateRenderTargetView(p.color.get(), nullptr, &p.colorView), rhi::Status::Ok);
-  EXPECT_EQ(device.CreateDepthStencilView(p.depth.get(), nullptr, &p.depthView), rhi::Status::Ok);
-  EXPECT_EQ(device.CreateQuery({rhi::QueryType::PipelineStatistics}, &p.query), rhi::Status::Ok);
-  return p;
-}
-
-// Triangles that left the geometry shader; two make a fin.
-uint64_t EmittedTriangles(rhi::IDevice& device, const Model& model, const Camera& camera, const glm::dmat4& placement) {
-  const RenderSettings settings = Settings();
-  const Probe probe = MakeProbe(device);
-  Result<GpuModel> gpu = UploadModel(device, model, settings);
-  Result<std::unique_ptr<ITechnique>> technique = MakeSeedTechnique(device, settings);
-  if (!gpu || !technique || !probe.query) {
-    ADD_FAILURE() << "cannot prepare the probe";
-    return 0;
-  }
-  FrameCounts counts;
-  FrameInputs in{.eye = camera.eye,
-                 .worldToClip = ProjectionMatrix(camera, 1.5) * ViewMatrix(camera),
-                 .placements = {&placement, 1},
-                 .counts = &counts};
-  rhi::IContext& context = *device.ImmediateContext();
-  rhi::IRenderTargetView* const views[] = {probe.colorView.get()};
-  const rhi::Viewport viewport{.width = 96, .height = 64};
-  context.OMSetRenderTargets(1, views, probe.depthView.get());
-  context.ClearDepthStencilView(probe.depthView.get(), true, 1, false, 0);
-  context.RSSetViewports(1, &viewport);
-  context.Begin(probe.query.get());
-  (*technique)->Draw(context, *gpu, in);
-  context.End(probe.query.get());
-  EXPECT_EQ(device.WaitIdle(), rhi::Status::Ok);
-  rhi::PipelineStatistics statistics{};
-  rhi::Status status = rhi::Status::StillDrawing;
-  for (int i = 0; i < 1000 && status == rhi::Status::StillDrawing; ++i)
-    status = context.GetData(probe.query.get(), &statistics, sizeof statistics, true);
-  EXPECT_EQ(status, rhi::Status::Ok);
-  return statistics.gsPrimitives;
-}
-
 TEST_P(Fins, SilhouetteEdgesOfClosedBodies) {
   if (!(*device_)->GetCaps().pipelineStatistics) GTEST_SKIP() << GetParam().name << " has no pipeline statistics";
   for (const Model& model : {Tetrahedron(LongCoat()), Cube(LongCoat())})
@@ -113,7 +58,7 @@ TEST_P(Fins, SilhouetteEdgesOfClosedBodies) {
       const Camera camera = CameraAt(7.3, yaw + 1, pitch + 2);
       const uint64_t fins = ExpectedFins(model.primitives[0], camera.eye);
       EXPECT_GE(fins, 6u) << "the oracle finds no silhouette";
-      EXPECT_EQ(EmittedTriangles(**device_, model, camera, glm::dmat4(1)), 2 * fins)
+      EXPECT_EQ(EmittedTriangles(*device_, model, Settings(), camera, glm::dmat4(1)), 2 * fins)
           << "yaw " << yaw << " pitch " << pitch;
     }
 }
@@ -130,20 +75,11 @@ TEST_P(Fins, PlacementDoesNotChangeTheSet) {
   const glm::dmat4 moved = glm::translate(glm::dmat4(1), origin) * turn;
   const glm::dvec3 eyeInObject(glm::inverse(moved) * glm::dvec4(camera.eye, 1));
   ASSERT_NE(ExpectedFins(model.primitives[0], eyeInObject), fins) << "the placement does not tell the two rules apart";
-  EXPECT_EQ(EmittedTriangles(**device_, model, camera, moved), 2 * fins);
+  EXPECT_EQ(EmittedTriangles(*device_, model, Settings(), camera, moved), 2 * fins);
 }
 
 // --------------------------------------------------------------------------------------------------------- one edge
-// A roof: two slopes of 45 degrees that meet in an edge along x, whose vertices point up (+Z).
-Model Roof() {
-  Model model = FurredMesh({{-1, 0, 0}, {1, 0, 0}, {0, 1, -1}, {0, -1, -1}}, {0, 1, 2, 1, 0, 3}, LongCoat());
-  for (Vertex& v : model.primitives[0].vertices) {
-    v.normal = {0, 0, 1};
-    v.tangent = {1, 0, 0, 1};
-    v.uv = {v.position.x < 0 ? 0.125f : 0.875f, 0.5f};
-  }
-  return model;
-}
+Model Roof() { return fur::test::Roof(LongCoat()); }
 
 // Needs no statistics: the one fin is seen or not.
 TEST_P(Fins, RoofGrowsAFinOnlyWhereOneSlopeIsSeen) {
@@ -207,7 +143,7 @@ TEST_P(Fins, LengthIsReadAtVertexOne) {
       if (i % 4 >= 2) lengths.pixels[i * 4] = right;
     roof.images.push_back(lengths);
     roof.materials[0].fur->lengthMap = 1;
-    return EmittedTriangles(**device_, roof, camera, glm::dmat4(1)) / 2;
+    return EmittedTriangles(*device_, roof, Settings(), camera, glm::dmat4(1)) / 2;
   };
   EXPECT_EQ(fins(255, 255), 2u);
   EXPECT_EQ(fins(0, 255), 1u);

@@ -103,4 +103,14 @@ Camera CameraAt(double distance, double yawDegrees, double pitchDegrees, double 
   return camera;
 }
 
+Model Roof(const Coat& coat) {
+  Model model = FurredMesh({{-1, 0, 0}, {1, 0, 0}, {0, 1, -1}, {0, -1, -1}}, {0, 1, 2, 1, 0, 3}, coat);
+  for (Vertex& v : model.primitives[0].vertices) {
+    v.normal = {0, 0, 1};
+    v.tangent = {1, 0, 0, 1};
+    v.uv = {v.position.x < 0 ? 0.125f : 0.875f, 0.5f};
+  }
+  return model;
+}
+
 }  // namespace fur::test

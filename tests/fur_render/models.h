@@ -33,6 +33,9 @@ Model FurredMesh(const std::vector<glm::vec3>& positions, const std::vector<uint
 Model Tetrahedron(const Coat&);
 Model Cube(const Coat&);  // 8 vertices, 12 triangles, so that every edge has two triangles by index
 
+// A roof: two slopes of 45 degrees that meet in an edge along x, whose vertices point up (+Z); u runs along the edge.
+Model Roof(const Coat&);
+
 // A camera on the ray from the origin at these angles; 0, 0 looks along -Z at the square's front.
 Camera CameraAt(double distance, double yawDegrees, double pitchDegrees, double fovY = 40);
 
