@@ -1,7 +1,6 @@
 #include <cstring>
 
-#include "context_bits.h"
-#include "resources.h"
+#include "context.h"
 
 namespace rhi_vulkan {
 namespace {
@@ -53,6 +52,11 @@ Buffer::Buffer(std::shared_ptr<Core> core, const BufferDesc& desc)
 Buffer::~Buffer() {
   core_->ring->Repin(slice.page, nullptr);
   gpu.Destroy(*core_);
+}
+
+void Buffer::Destroy() noexcept {
+  if (core_->context && (desc_.bind & Bind::ConstantBuffer)) core_->context->Disown(*this);
+  VkObject::Destroy();
 }
 
 void Buffer::SetName(const char* name) {

@@ -95,6 +95,7 @@ class Context final : public backend::ContextBase {
   // Brings a texture to an image of a window, scaled and converted where they differ, and submits.
   Status WriteWindowImage(Texture& from, const WindowImage& to, const PresentSync&);
   Stats TakeStats(bool reset);
+  void Disown(const Buffer&);  // nobody holds the constant buffer any more
 
  private:
   struct PendingClear {
@@ -231,7 +232,7 @@ class Context final : public backend::ContextBase {
   VkCommandBuffer cmd_ = VK_NULL_HANDLE;
   // Where the contents of b0..b3 are in their pages. A dynamic buffer writes its own entry when its contents move.
   std::array<uint32_t, kMaxConstantBuffers> constantOffsets_{};
-  std::array<Ref<IBuffer>, kMaxConstantBuffers> offsetOwners_;
+  std::array<Buffer*, kMaxConstantBuffers> offsetOwners_{};  // no references: a buffer that goes says so (Disown)
   VkDescriptorSet constantSet_ = VK_NULL_HANDLE;
   const Pipeline* pipeline_ = nullptr;
   bool inPass_ = false;

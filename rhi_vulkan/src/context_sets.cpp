@@ -20,7 +20,7 @@ bool Context::BindConstants() {
 // the other, because then every discard looks for the set again.
 void Context::OwnOffset(uint32_t slot, Buffer* buffer) {
   uint32_t* entry = &constantOffsets_[slot];
-  auto* old = static_cast<Buffer*>(offsetOwners_[slot].get());
+  Buffer* old = offsetOwners_[slot];
   if (old && old != buffer && old->offsetEntry == entry) old->offsetEntry = &old->unboundOffset;
   *entry = buffer ? buffer->slice.offset : 0;
   if (buffer && buffer->IsDynamic()) {
@@ -28,7 +28,12 @@ void Context::OwnOffset(uint32_t slot, Buffer* buffer) {
     buffer->dirtyOnDiscard = kDirtyOffsets | (elsewhere ? uint32_t(backend::DirtyConstants) : 0u);
     buffer->offsetEntry = entry;
   }
-  offsetOwners_[slot] = Ref<IBuffer>(buffer);
+  offsetOwners_[slot] = buffer;
+}
+
+void Context::Disown(const Buffer& buffer) {
+  for (Buffer*& owner : offsetOwners_)
+    if (owner == &buffer) owner = nullptr;
 }
 
 // The set for the buffers (or ring pages) in b0..b3; also notes their offsets.
