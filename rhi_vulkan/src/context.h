@@ -5,12 +5,15 @@
 // SwitchPipeline; else PrepareDraw does the rest.
 #pragma once
 
+#include <optional>
+
 #include "barriers.h"
 #include "context_bits.h"
 #include "descriptors.h"
 #include "pipeline.h"
 #include "queries.h"
 #include "resources.h"
+#include "spirv.h"
 
 namespace rhi_vulkan {
 
@@ -36,6 +39,8 @@ struct Batch {
   uint64_t serial = 0;
   DescriptorArena sets;
 };
+
+inline constexpr uint32_t kNoStarts = ~0u;  // of the arguments of a dispatch
 
 // Stand-ins for registers with nothing bound.
 struct NullResources {
@@ -163,7 +168,10 @@ class Context final : public backend::ContextBase {
   bool BindPipeline();
   PipelineKey CurrentKey() const;
   bool CheckIndexBuffer();
-  Buffer* PrepareIndirect(IBuffer*, uint32_t offset, uint32_t size);
+  // `startsAt`: where in the arguments the starts of vertices and instances are.
+  Buffer* PrepareIndirect(IBuffer*, uint32_t offset, uint32_t size, uint32_t startsAt);
+  void PushStarts(const DrawStarts&);
+  void CopyStarts(Buffer& args, uint32_t offset);
   void BindVertexBuffers();
   void BindIndexBuffer();
   // context_state.cpp
@@ -236,6 +244,7 @@ class Context final : public backend::ContextBase {
   VkDescriptorSet constantSet_ = VK_NULL_HANDLE;
   const Pipeline* pipeline_ = nullptr;
   bool inPass_ = false;
+  const bool emulateStarts_;  // see DrawStarts
 
   PipelineKey key_;
   std::array<const SetLayout*, 3> boundLayouts_{};
@@ -254,6 +263,8 @@ class Context final : public backend::ContextBase {
   std::deque<uint64_t> frames_;  // last serials of the frames in flight
   uint32_t framesInFlight_;
   NullResources null_;
+  GpuBuffer starts_;                        // DrawStarts of the latest indirect draw, where they are emulated
+  std::optional<DrawStarts> pushedStarts_;  // none: nothing pushed in this command buffer
   VkPipelineStageFlags2 constantStages_ = 0;
   std::vector<MsgCode> reported_;
   std::vector<std::string> events_;  // begun and not ended

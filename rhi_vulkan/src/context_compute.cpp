@@ -11,7 +11,7 @@ void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
 
 void Context::DispatchIndirect(IBuffer* args, uint32_t offset) {
   LeavePass();
-  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DispatchArgs));
+  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DispatchArgs), kNoStarts);
   if (!buffer || !PrepareDispatch()) return;
   vk_.vkCmdDispatchIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset);
   EndDispatch();

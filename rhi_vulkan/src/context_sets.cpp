@@ -49,6 +49,10 @@ VkDescriptorSet Context::ConstantSet() {
     AddBuffer(i, handle, 0, range, !buffer ? 0 : buffer->IsDynamic() ? buffer->slice.page->id : buffer->id);
     writes_.back().descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
   }
+  if (emulateStarts_) {
+    AddBuffer(kStartsBinding, starts_.handle, 0, sizeof(DrawStarts), 0);
+    writes_.back().descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  }
   bool isNew = false;
   const VkDescriptorSet set = batch_->sets.Find(*core_->layouts->Constants(), setKey_, &isNew);
   if (set && isNew) WriteSet(set);

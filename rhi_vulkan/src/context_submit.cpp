@@ -44,6 +44,7 @@ Context::Context(VulkanDevice& device, std::shared_ptr<Core> core, uint32_t fram
       core_(std::move(core)),
       vk_(core_->vk),
       ring_(*core_->ring),
+      emulateStarts_(!core_->adapter.features.drawParameters),
       framesInFlight_(std::max(1u, framesInFlight)) {
   constantStages_ = StageBits(Stage::Vertex) | StageBits(Stage::Pixel);
   if (core_->adapter.caps.geometryShader) constantStages_ |= StageBits(Stage::Geometry);
@@ -62,6 +63,7 @@ Context::~Context() {
       if (view) vk_.vkDestroyImageView(core_->device, view, nullptr);
   null_.zeros.Destroy(*core_);
   null_.sink.Destroy(*core_);
+  starts_.Destroy(*core_);
 }
 
 Status Context::Init() {
@@ -71,6 +73,13 @@ Status Context::Init() {
     const Status s = buffer->Create(*core_, "rhi unbound", kMaxConstantBufferBytes, kUsage, MemoryKind::Upload);
     if (s != Status::Ok) return s;
     std::memset(buffer->memory.mapped, 0, kMaxConstantBufferBytes);
+  }
+  if (emulateStarts_) {
+    const Status s =
+        starts_.Create(*core_, "rhi draw starts", sizeof(DrawStarts),
+                       VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::Upload);
+    if (s != Status::Ok) return s;
+    std::memset(starts_.memory.mapped, 0, sizeof(DrawStarts));
   }
   if (Status s = device_.CreateSamplerState({}, &null_.sampler); s != Status::Ok) return s;
   return BeginBatch();
@@ -95,6 +104,7 @@ Status Context::BeginBatch() {
   boundLayouts_ = {};
   boundSets_ = {};
   constantSet_ = VK_NULL_HANDLE;
+  pushedStarts_.reset();
   for (const std::string& event : events_) OpenEvent(event);
   return Status::Ok;
 }
