@@ -68,7 +68,7 @@ Status Buffer::Create() {
   if (desc_.usage == Usage::Dynamic) {
     alignedWidth = AlignUp(desc_.byteWidth, core_->ring->Alignment());
     dirtyOnDiscard = DirtyBitsOf(desc_.bind);
-    if (!core_->ring->Take(alignedWidth, &slice)) return Status::OutOfMemory;
+    if (!core_->ring->Take(alignedWidth, &slice)) return core_->Failure();
     core_->ring->Repin(nullptr, slice.page);
     std::memset(slice.Data(), 0, desc_.byteWidth);
     return Status::Ok;

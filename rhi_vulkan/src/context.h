@@ -253,6 +253,7 @@ class Context final : public backend::ContextBase {
   std::vector<PendingClear> clears_;
   BarrierBatch barriers_;
   SetKey setKey_;
+  bool setIncomplete_ = false;  // no memory for the texture that stands in for an unbound one
   std::vector<VkWriteDescriptorSet> writes_;
   std::array<VkDescriptorImageInfo, 32> imageInfos_{};
   std::array<VkDescriptorBufferInfo, 32> bufferInfos_{};

@@ -69,8 +69,7 @@ void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
 
 void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
   if (!CheckIndexBuffer()) return;
-  Buffer* buffer =
-      PrepareIndirect(args, offset, sizeof(DrawIndexedArgs), offsetof(DrawIndexedArgs, baseVertex));
+  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawIndexedArgs), offsetof(DrawIndexedArgs, baseVertex));
   if (!buffer || !ReadyToDraw()) return;
   if (emulateStarts_) PushStarts({0, 0, 1});
   vk_.vkCmdDrawIndexedIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset, 1, 0);
@@ -269,9 +268,10 @@ bool Context::BindPipeline() {
                             static_cast<const InputLayout*>(state_.layout.get()), blend ? &blend->Desc() : nullptr};
   const Pipeline& pipeline = core_->pipelines->Get(key, parts);
   if (!pipeline.handle) {
+    pipeline_ = nullptr;
+    if (pipeline.status == Status::OutOfMemory || pipeline.status == Status::DeviceLost) return false;
     Report(Severity::Error, MsgCode::ShaderRejected, parts.vs->Name().c_str(),
            "the driver refused the pipeline of this draw; it is skipped");
-    pipeline_ = nullptr;
     return false;
   }
   vk_.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);

@@ -72,7 +72,7 @@ Status Context::MapBuffer(Buffer& buffer, MapMode mode, Mapped* out) {
     return MapError(
         MsgCode::MapMode, name,
         "Dynamic buffers are mapped with WriteDiscard or WriteNoOverwrite, Staging ones with Read or Write");
-  if (discard && !Discard(buffer)) return Status::OutOfMemory;
+  if (discard && !Discard(buffer)) return core_->Failure();
   if (buffer.IsDynamic()) {
     out->data = buffer.slice.Data();
   } else {

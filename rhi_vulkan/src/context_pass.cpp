@@ -186,6 +186,7 @@ void Context::ClearDepthStencilView(IDepthStencilView* target, bool clearDepth, 
 }
 
 void Context::AddClear(PendingClear clear) {
+  if (core_->lost) return;
   if (inPass_ && ClearInPass(clear)) return;
   for (PendingClear& old : clears_) {
     if (old.view == clear.view) {  // the later clear of an aspect counts

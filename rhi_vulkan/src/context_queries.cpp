@@ -79,12 +79,12 @@ void Context::End(IQuery* target) {
 
 Status Context::GetData(IQuery* target, void* data, uint32_t size, bool flush) {
   auto* query = static_cast<Query*>(target);
+  if (core_->lost) return Status::DeviceLost;
   if (!query || query->active || query->serial == 0) {
     log_.Report(Severity::Error, MsgCode::QueryOrder, query ? query->Name().c_str() : "",
                 "GetData before End; there is nothing to wait for");
     return Status::InvalidArg;
   }
-  if (core_->lost) return Status::DeviceLost;
   if (query->serial == core_->recording) {
     if (!flush) return Status::StillDrawing;
     Flush();

@@ -105,6 +105,7 @@ void Context::AddResource(Stage stage, const ShaderResource& r) {
   if (wantsTexture) {
     const bool depth = view && GetFormatInfo(view->Desc().format).depth;
     const VkImageView handle = view ? view->view : NullView(r.dim, r.integer);
+    setIncomplete_ = setIncomplete_ || (!handle && !core_->adapter.features.nullDescriptor);
     AddImage(binding, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, handle, SampledRead(stage, depth).layout, view ? view->id : 0);
     return;
   }
@@ -129,8 +130,10 @@ VkDescriptorSet Context::StageSet(Stage stage, const Shader& shader) {
   writes_.clear();
   setKey_.Clear();
   setKey_.Add(uint64_t(reinterpret_cast<uintptr_t>(shader.layout)));  // layouts live as long as the device
+  setIncomplete_ = false;
   for (const ShaderResource& r : shader.reflection.resources)
     if (r.kind == ShaderResourceKind::Texture || r.kind == ShaderResourceKind::StructuredBuffer) AddResource(stage, r);
+  if (setIncomplete_) return VK_NULL_HANDLE;
   for (const ShaderSampler& s : shader.reflection.samplers) AddSampler(stage, s);
   bool isNew = false;
   const VkDescriptorSet set = batch_->sets.Find(*shader.layout, setKey_, &isNew);
@@ -220,7 +223,7 @@ VkImageView Context::NullView(TextureDim dim, bool integer) {
   barriers.Record(vk_, Setup());
   ViewDesc viewDesc;
   backend::ResolveTextureView(desc, nullptr, Bind::ShaderResource, &viewDesc, log_);
-  CreateImageView(*core_, made, viewDesc, Bind::ShaderResource, &view);
+  core_->Check(CreateImageView(*core_, made, viewDesc, Bind::ShaderResource, &view), desc.name, "vkCreateImageView");
   return view;
 }
 

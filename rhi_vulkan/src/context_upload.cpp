@@ -25,10 +25,11 @@ Status Context::InitBuffer(Buffer& buffer, const void* data) {
     return Status::Ok;
   }
   Slice slice;
-  if (!ring_.Take(AlignUp(size, ring_.Alignment()), &slice)) return Status::OutOfMemory;
+  if (!ring_.Take(AlignUp(size, ring_.Alignment()), &slice)) return core_->Failure();
   std::memcpy(slice.Data(), data, size);
   const VkBufferCopy region{slice.offset, 0, size};
-  vk_.vkCmdCopyBuffer(Setup(), slice.page->buffer, buffer.gpu.handle, 1, &region);
+  const VkCommandBuffer setup = Setup();
+  vk_.vkCmdCopyBuffer(setup, slice.page->buffer, buffer.gpu.handle, 1, &region);
   Access write = kCopyDest;
   write.layout = VK_IMAGE_LAYOUT_UNDEFINED;
   Advance(buffer.gpu.state, write);
@@ -52,7 +53,7 @@ Status Context::InitTexture(Texture& texture, const SubresourceData* data) {
       return Status::InvalidArg;
     }
     const Box box = WholeMip(backend::GetMipLayout(texture.Desc(), texture.One(i).mip));
-    if (!Upload(texture.IsStaging() ? VK_NULL_HANDLE : Setup(), texture, i, box, data[i])) return Status::OutOfMemory;
+    if (!Upload(texture.IsStaging() ? VK_NULL_HANDLE : Setup(), texture, i, box, data[i])) return core_->Failure();
   }
   return Status::Ok;
 }

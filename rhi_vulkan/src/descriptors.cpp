@@ -28,7 +28,7 @@ Status LayoutCache::Init() {
   if (!core_.adapter.features.drawParameters) registers.push_back({kStartsBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER});
   constants_ = Get(AllStages(core_.adapter.caps), std::move(registers));
   empty_ = Get(0, {});
-  return constants_ && empty_ ? Status::Ok : Status::OutOfMemory;
+  return constants_ && empty_ ? Status::Ok : core_.Failure();
 }
 
 const SetLayout* LayoutCache::Get(VkShaderStageFlags stages, std::vector<SetBinding> bindings) {

@@ -103,6 +103,7 @@ Status VulkanDevice::CreateBufferView(Buffer* buffer, const ViewDesc* desc, Bind
 template <class Interface>
 Status VulkanDevice::CreateView(IResource* resource, const ViewDesc* desc, Bind need, Ref<Interface>* out) {
   *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
   if (!resource) return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "", kNullArgument);
   if (Buffer* buffer = AsBuffer(resource)) return CreateBufferView(buffer, desc, need, out);
   return CreateTextureView(static_cast<Texture*>(resource), desc, need, out);
@@ -141,6 +142,7 @@ Status VulkanDevice::CreateShader(const ShaderBlob& blob, Ref<IShader>* out) {
 Status VulkanDevice::CreateInputLayout(const InputElement* elements, uint32_t count, IShader* vs,
                                        Ref<IInputLayout>* out) {
   *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
   if (!vs || vs->GetStage() != Stage::Vertex || count > kMaxVertexElements)
     return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "",
                   "an input layout needs a vertex shader and at most 16 elements");
@@ -165,22 +167,27 @@ Status VulkanDevice::CreateState(const Desc& desc, Ref<Interface>* out) {
 
 Status VulkanDevice::CreateBlendState(const BlendDesc& desc, Ref<IBlendState>* out) {
   *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
   const Status s = CheckBlend(desc, GetCaps(), core_->log);
   return s == Status::Ok ? CreateState<BlendState>(desc, out) : s;
 }
 
 Status VulkanDevice::CreateDepthStencilState(const DepthStencilDesc& desc, Ref<IDepthStencilState>* out) {
+  *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
   return CreateState<DepthState>(desc, out);
 }
 
 Status VulkanDevice::CreateRasterizerState(const RasterizerDesc& desc, Ref<IRasterizerState>* out) {
   *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
   const Status s = CheckRaster(desc, GetCaps(), core_->log);
   return s == Status::Ok ? CreateState<RasterState>(desc, out) : s;
 }
 
 Status VulkanDevice::CreateSamplerState(const SamplerDesc& desc, Ref<ISamplerState>* out) {
   *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
   if (desc.maxAniso < 1 || desc.maxAniso > 16)
     return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "", "SamplerDesc::maxAniso must be 1 to 16");
   Ref<Sampler> sampler = core_->states->samplers.Find(desc);
@@ -193,6 +200,7 @@ Status VulkanDevice::CreateSamplerState(const SamplerDesc& desc, Ref<ISamplerSta
 
 Status VulkanDevice::CreateQuery(const QueryDesc& desc, Ref<IQuery>* out) {
   *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
   if (!QueryAvailable(desc.type, GetCaps(), core_->adapter.features))
     return Refuse(Status::Unsupported, MsgCode::CapMissing, "",
                   "this adapter has no such query; see Caps::timestamp, pipelineStatistics and occlusionPrecise");
@@ -208,6 +216,7 @@ Status VulkanDevice::CreateSwapChain(const SwapChainDesc& desc, Ref<ISwapChain>*
 }
 
 Status VulkanDevice::PrecachePipeline(const PipelineKeyDesc& d) {
+  if (core_->lost) return Status::DeviceLost;
   if (!d.vs || d.rtvCount > kMaxRenderTargets)
     return Refuse(Status::InvalidArg, MsgCode::NoVertexShader, "",
                   "PrecachePipeline needs a vertex shader and at most 8 targets");
@@ -231,7 +240,8 @@ Status VulkanDevice::PrecachePipeline(const PipelineKeyDesc& d) {
     key.depthClip = d.raster->Desc().depthClip;
   }
   const PipelineParts parts{shader(d.vs), shader(d.gs), shader(d.ps), layout, blend ? &blend->Desc() : nullptr};
-  return core_->pipelines->Get(key, parts).handle ? Status::Ok : Status::CompileFailed;
+  core_->pipelines->ForgetFailed();
+  return core_->pipelines->Get(key, parts).status;
 }
 
 size_t VulkanDevice::GetPipelineCacheBlob(void* out, size_t capacity) { return core_->pipelines->Blob(out, capacity); }

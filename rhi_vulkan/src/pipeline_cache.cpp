@@ -7,6 +7,9 @@ namespace {
 
 constexpr size_t kBlobHeaderBytes = 32;  // VkPipelineCacheHeaderVersionOne
 
+// For want of memory, say, and not because the driver refuses it.
+bool FailedForNow(const Pipeline& p) { return p.status != Status::Ok && p.status != Status::CompileFailed; }
+
 }  // namespace
 
 TopologyClass ClassOf(PrimitiveTopology topology) {
@@ -84,8 +87,16 @@ Status PipelineCache::Init(const void* blob, size_t size) {
 const Pipeline& PipelineCache::Get(const PipelineKey& key, const PipelineParts& parts) {
   const auto [it, isNew] = pipelines_.try_emplace(key);
   if (isNew) it->second = Make(key, parts);  // a refused pipeline is remembered too, so that it is tried once
+  anyFailed_ = anyFailed_ || FailedForNow(it->second);
   recent_[RecentSlot(key)] = {key, &it->second};
   return it->second;
+}
+
+void PipelineCache::ForgetFailed() {
+  if (!anyFailed_) return;
+  anyFailed_ = false;
+  recent_ = {};
+  std::erase_if(pipelines_, [](const auto& entry) { return FailedForNow(entry.second); });
 }
 
 void PipelineCache::Forget(uint32_t shader) {
@@ -100,7 +111,9 @@ void PipelineCache::Forget(uint32_t shader) {
 
 size_t PipelineCache::Blob(void* out, size_t capacity) {
   size_t size = 0;
-  if (core_.vk.vkGetPipelineCacheData(core_.device, cache_, &size, nullptr) != VK_SUCCESS) return 0;
+  if (core_.lost) return 0;
+  const VkResult result = core_.vk.vkGetPipelineCacheData(core_.device, cache_, &size, nullptr);
+  if (core_.Check(result, "", "vkGetPipelineCacheData") != Status::Ok) return 0;
   if (!core_.adapter.caps.pipelineCacheBlob || size <= kBlobHeaderBytes) return 0;
   if (out && capacity >= size) core_.vk.vkGetPipelineCacheData(core_.device, cache_, &size, out);
   return size;

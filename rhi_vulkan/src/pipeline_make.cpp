@@ -187,6 +187,7 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   Pipeline out;
   out.sets = {parts.vs->layout, parts.gs ? parts.gs->layout : nullptr, parts.ps ? parts.ps->layout : nullptr};
   out.layout = core_.layouts->GetPipelineLayout(out.sets);
+  out.status = core_.Failure();
   if (!out.layout) return out;
 
   Stages stages;
@@ -229,8 +230,8 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   info.layout = out.layout;
   ++made;
   const VkResult result = core_.vk.vkCreateGraphicsPipelines(core_.device, cache_, 1, &info, nullptr, &out.handle);
-  if (core_.Check(result, parts.vs->Name().c_str(), "vkCreateGraphicsPipelines") != Status::Ok)
-    out.handle = VK_NULL_HANDLE;
+  out.status = core_.Check(result, parts.vs->Name().c_str(), "vkCreateGraphicsPipelines");
+  if (out.status != Status::Ok) out.handle = VK_NULL_HANDLE;
   return out;
 }
 

@@ -80,7 +80,7 @@ struct Addition {
 struct VertexModule {
   uint32_t floatType = 0, entry = 0;
   bool hasPointSize = false;
-  uint32_t baseVertex = 0, baseInstance = 0;  // the variables; 0: not there
+  uint32_t baseVertex = 0, baseInstance = 0;     // the variables; 0: not there
   std::map<uint32_t, uint32_t> pointee, typeOf;  // of pointer types, of variables
 
   explicit VertexModule(const Array<uint32_t>& spirv) {

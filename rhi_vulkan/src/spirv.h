@@ -20,8 +20,8 @@ uint32_t ColorOutputs(const Array<uint32_t>&);
 std::vector<uint32_t> WithPointSize(const Array<uint32_t>&);
 
 // Where a draw starts, for drivers without shaderDrawParameters (SwiftShader): what SV_VertexID and SV_InstanceID
-// subtract. As push constants of a vertex shader; for indirect draws `indirect` is 1, and the two numbers are those that
-// were copied from the arguments to the uniform block at kStartsBinding of the constants' set.
+// subtract. As push constants of a vertex shader; for indirect draws `indirect` is 1, and the two numbers are those
+// that were copied from the arguments to the uniform block at kStartsBinding of the constants' set.
 struct DrawStarts {
   uint32_t vertex = 0, instance = 0, indirect = 0;
   bool operator==(const DrawStarts&) const = default;
