@@ -57,6 +57,7 @@ class PipelineCache {
   }
   void ForgetFailed();           // those that failed for another reason than a shader: to be tried again
   void Forget(uint32_t shader);  // when a shader is destroyed: the GPU is past its pipelines
+  // The driver's data behind a header of ours: drivers need not check what they are given, so we do.
   size_t Blob(void* out, size_t capacity);
   VkPipelineCache Handle() const { return cache_; }
 
@@ -81,7 +82,8 @@ class PipelineCache {
   static constexpr size_t kRecent = 64;
 
   Pipeline Make(const PipelineKey&, const PipelineParts&);
-  bool BlobFits(const void* blob, size_t size) const;
+  const char* ProblemOf(const void* blob, size_t size) const;  // null: the driver may have it
+  VkResult Create(const void* data, size_t size);
 
   Core& core_;
   VkPipelineCache cache_ = VK_NULL_HANDLE;

@@ -167,6 +167,7 @@ TEST(Messages, CodesAreStable) {
                                            {MsgCode::ShaderRejected, 104},
                                            {MsgCode::LayoutMismatch, 105},
                                            {MsgCode::ImmutableWrite, 106},
+                                           {MsgCode::PipelineCacheRefused, 108},
                                            {MsgCode::TargetStillBoundAsInput, 200},
                                            {MsgCode::InputStillBoundAsTarget, 201},
                                            {MsgCode::SlotOutOfRange, 202},

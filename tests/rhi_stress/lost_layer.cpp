@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -27,6 +28,7 @@ struct NextInstance {
   // Found once, at the beginning: later the loader gives this layer's own, the first of the chain.
   PFN_vkDestroyInstance destroy;
   PFN_vkGetPhysicalDeviceFeatures2 features;
+  PFN_vkGetPhysicalDeviceProperties2 properties;
 };
 struct NextDevice {
   VkDevice handle;
@@ -42,6 +44,8 @@ struct Layer {
   VkResult result = VK_SUCCESS;
   uint32_t skip = 0, times = 0, failures = 0;
   bool hideDrawParameters = false;
+  bool saveCaches = false;
+  uint32_t warmCaches = 0;
 };
 Layer& TheLayer() {
   static Layer layer;
@@ -153,7 +157,8 @@ VKAPI_ATTR VkResult VKAPI_CALL CreateInstance(const VkInstanceCreateInfo* info, 
   const std::lock_guard lock(TheLayer().mutex);
   TheLayer().instances[KeyOf(*instance)] = {
       *instance, find, reinterpret_cast<PFN_vkDestroyInstance>(find(*instance, "vkDestroyInstance")),
-      reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(find(*instance, "vkGetPhysicalDeviceFeatures2"))};
+      reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(find(*instance, "vkGetPhysicalDeviceFeatures2")),
+      reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(find(*instance, "vkGetPhysicalDeviceProperties2"))};
   return result;
 }
 
@@ -204,6 +209,49 @@ VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceFeatures2(VkPhysicalDevice physical,
       reinterpret_cast<VkPhysicalDeviceVulkan11Features*>(s)->shaderDrawParameters = VK_FALSE;
 }
 
+VKAPI_ATTR void VKAPI_CALL GetPhysicalDeviceProperties2(VkPhysicalDevice physical,
+                                                        VkPhysicalDeviceProperties2* properties) {
+  std::unique_lock lock(TheLayer().mutex);
+  const NextInstance next = TheLayer().instances.at(KeyOf(physical));
+  const bool another = TheLayer().saveCaches;
+  lock.unlock();
+  next.properties(physical, properties);
+  for (auto* s = static_cast<VkBaseOutStructure*>(properties->pNext); another && s; s = s->pNext)
+    if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES)
+      reinterpret_cast<VkPhysicalDeviceDriverProperties*>(s)->driverID = VK_DRIVER_ID_MAX_ENUM;
+}
+
+// What the pretended driver saves: its header, then this.
+constexpr size_t kCacheHeaderBytes = 32;
+constexpr std::string_view kSaved = "pipelines, made once and for all";
+
+VKAPI_ATTR VkResult VKAPI_CALL GetPipelineCacheData(VkDevice device, VkPipelineCache cache, size_t* bytes, void* data) {
+  const auto next = &Hook<"vkGetPipelineCacheData", PFN_vkGetPipelineCacheData>::Call;
+  if (!TheLayer().saveCaches) return next(device, cache, bytes, data);
+  const size_t all = kCacheHeaderBytes + kSaved.size();
+  size_t header = kCacheHeaderBytes;
+  if (data && *bytes < all) return VK_INCOMPLETE;
+  *bytes = all;
+  if (!data) return VK_SUCCESS;
+  const VkResult result = next(device, cache, &header, data);
+  std::memcpy(static_cast<char*>(data) + kCacheHeaderBytes, kSaved.data(), kSaved.size());
+  return result == VK_INCOMPLETE ? VK_SUCCESS : result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL CreatePipelineCache(VkDevice device, const VkPipelineCacheCreateInfo* info,
+                                                   const VkAllocationCallbacks* allocator, VkPipelineCache* cache) {
+  VkPipelineCacheCreateInfo passed = *info;
+  if (TheLayer().saveCaches && info->initialDataSize != 0) {
+    const auto* data = static_cast<const char*>(info->pInitialData);
+    const bool intact = info->initialDataSize == kCacheHeaderBytes + kSaved.size() &&
+                        std::memcmp(data + kCacheHeaderBytes, kSaved.data(), kSaved.size()) == 0;
+    if (!intact) std::abort();  // as a driver may that trusts what it is given
+    ++TheLayer().warmCaches;
+    passed.initialDataSize = kCacheHeaderBytes;
+  }
+  return Hook<"vkCreatePipelineCache", PFN_vkCreatePipelineCache>::Call(device, &passed, allocator, cache);
+}
+
 PFN_vkVoidFunction FindOwn(const Entry* begin, const Entry* end, const char* name) {
   const Entry* found = std::find_if(begin, end, [&](const Entry& e) { return std::strcmp(e.name, name) == 0; });
   return found == end ? nullptr : found->function;
@@ -211,7 +259,9 @@ PFN_vkVoidFunction FindOwn(const Entry* begin, const Entry* end, const char* nam
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL GetDeviceProcAddr(VkDevice device, const char* name) {
   static const Entry own[] = {{"vkGetDeviceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(GetDeviceProcAddr)},
-                              {"vkDestroyDevice", reinterpret_cast<PFN_vkVoidFunction>(DestroyDevice)}};
+                              {"vkDestroyDevice", reinterpret_cast<PFN_vkVoidFunction>(DestroyDevice)},
+                              {"vkGetPipelineCacheData", reinterpret_cast<PFN_vkVoidFunction>(GetPipelineCacheData)},
+                              {"vkCreatePipelineCache", reinterpret_cast<PFN_vkVoidFunction>(CreatePipelineCache)}};
   if (const auto f = FindOwn(std::begin(own), std::end(own), name)) return f;
   if (const auto f = FindOwn(std::begin(kFailing), std::end(kFailing), name)) return f;
   const std::lock_guard lock(TheLayer().mutex);
@@ -226,6 +276,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL GetInstanceProcAddr(VkInstance instance
       {"vkDestroyInstance", reinterpret_cast<PFN_vkVoidFunction>(DestroyInstance)},
       {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(CreateDevice)},
       {"vkDestroyDevice", reinterpret_cast<PFN_vkVoidFunction>(DestroyDevice)},
+      {"vkGetPhysicalDeviceProperties2", reinterpret_cast<PFN_vkVoidFunction>(GetPhysicalDeviceProperties2)},
       {"vkGetPhysicalDeviceFeatures2", reinterpret_cast<PFN_vkVoidFunction>(GetPhysicalDeviceFeatures2)}};
   if (const auto f = FindOwn(std::begin(own), std::end(own), name)) return f;
   if (const auto f = FindOwn(std::begin(kFailing), std::end(kFailing), name)) return f;
@@ -255,6 +306,15 @@ void HideDrawParameters(bool hide) {
   const std::lock_guard lock(TheLayer().mutex);
   TheLayer().hideDrawParameters = hide;
 }
+void SaveCaches(bool save) {
+  const std::lock_guard lock(TheLayer().mutex);
+  TheLayer().saveCaches = save;
+  TheLayer().warmCaches = 0;
+}
+uint32_t WarmCaches() {
+  const std::lock_guard lock(TheLayer().mutex);
+  return TheLayer().warmCaches;
+}
 const char* const* Functions() {
   static const auto names = [] {
     std::array<const char*, std::size(kFailing) + 2> all{};
@@ -280,7 +340,7 @@ vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* versions) {
 }
 
 VK_LAYER_EXPORT const rhi_stress::LostLayer* FurLostLayer() {
-  static const rhi_stress::LostLayer layer{Fail, Pass, Failures, HideDrawParameters, Functions};
+  static const rhi_stress::LostLayer layer{Fail, Pass, Failures, HideDrawParameters, SaveCaches, WarmCaches, Functions};
   return &layer;
 }
 }

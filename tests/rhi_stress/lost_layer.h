@@ -16,9 +16,12 @@ struct LostLayer {
   // Let `skip` calls of `function` pass, then give `result` (a VkResult) `times` times. Replaces what was told before.
   // A device that has given VK_ERROR_DEVICE_LOST gives it to all that can, from then on.
   void (*fail)(const char* function, int32_t result, uint32_t skip, uint32_t times);
-  void (*pass)();                     // nothing fails any more; lost devices stay lost
-  uint32_t (*failures)();             // how many calls have failed since `fail`
-  void (*hideDrawParameters)(bool);   // of devices made from now on
+  void (*pass)();                    // nothing fails any more; lost devices stay lost
+  uint32_t (*failures)();            // how many calls have failed since `fail`
+  void (*hideDrawParameters)(bool);  // of devices made from now on
+  // Pretends to be a driver with a pipeline cache that can be saved, for devices made from now on.
+  void (*saveCaches)(bool);
+  uint32_t (*warmCaches)();           // how many caches were made of intact data since then
   const char* const* (*functions)();  // those that can fail; ends with null
 };
 using LostLayerEntry = const LostLayer* (*)();

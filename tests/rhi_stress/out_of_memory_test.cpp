@@ -182,7 +182,11 @@ INSTANTIATE_TEST_SUITE_P(Stress, OutOfMemoryTest, testing::Values(kOutOfHostMemo
 // all calls of that function that follow.
 class EveryCallFails : public testing::TestWithParam<const char*> {
  protected:
-  void TearDown() override { TheLostLayer().pass(); }
+  void SetUp() override { TheLostLayer().saveCaches(true); }  // so that all functions are called
+  void TearDown() override {
+    TheLostLayer().pass();
+    TheLostLayer().saveCaches(false);
+  }
   static int Said(const TestSink& sink) { return sink.Count(MsgCode::OutOfMemory) + sink.Count(MsgCode::DeviceLost); }
   // One life of a device; what it refuses it has to say.
   static void Live(TestSink& sink, bool validation) {
@@ -203,7 +207,7 @@ class EveryCallFails : public testing::TestWithParam<const char*> {
       }
       std::array<uint8_t, 256> out{};
       rig.device->ReadBack(scene.target.texture.get(), 0, out.data(), out.size());
-      rig.device->GetPipelineCacheBlob(nullptr, 0);
+      rig.device->GetPipelineCacheBlob(out.data(), out.size());
       rig.context->GetData(scene.occlusion.get(), out.data(), 8, true);
       rig.context->Unmap(scene.mapped.get(), 0);
     } catch (const std::runtime_error&) {

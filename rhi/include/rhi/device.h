@@ -241,7 +241,7 @@ struct DeviceDesc {
   const char* adapter = "";     // part of an adapter's name; "": the first hardware adapter, else software
   bool preferSoftware = false;  // with adapter "": a CPU rasteriser first
   IMessageSink* sink = nullptr;
-  const void* pipelineCache = nullptr;  // a blob of GetPipelineCacheBlob
+  const void* pipelineCache = nullptr;  // a blob of GetPipelineCacheBlob; one that does not fit is ignored, and said
   size_t pipelineCacheSize = 0;
   uint32_t framesInFlight = 2;
   uint32_t ringPageBytes = 1u << 20;
@@ -288,7 +288,8 @@ class IDevice : public IObject {
   virtual Status CreateSwapChain(const SwapChainDesc&, Ref<ISwapChain>*) = 0;
 
   virtual Status PrecachePipeline(const PipelineKeyDesc&) = 0;  // makes a pipeline before its first draw
-  // The size of the blob; copies it if `capacity` suffices. 0 where the driver has none (Caps::pipelineCacheBlob).
+  // The size of the blob; copies it if `capacity` suffices. 0 where the driver has none (Caps::pipelineCacheBlob), or no
+  // pipeline yet.
   virtual size_t GetPipelineCacheBlob(void* out, size_t capacity) = 0;
 
   virtual IContext* ImmediateContext() = 0;

@@ -16,7 +16,8 @@ enum class MsgCode : uint16_t {
   ShaderRejected = 104,
   LayoutMismatch = 105,
   ImmutableWrite = 106,
-  LiveObjects = 107,  // an object is still referenced when its device goes
+  LiveObjects = 107,           // an object is still referenced when its device goes
+  PipelineCacheRefused = 108,  // DeviceDesc::pipelineCache is damaged, or of another driver; it is ignored
   // 2xx: binding
   TargetStillBoundAsInput = 200,  // a target's shader view was unbound, as Direct3D 10 does
   InputStillBoundAsTarget = 201,
