@@ -12,9 +12,12 @@ struct LayerOut {
   float2 uv : TEXCOORD0;
   uint layer : SV_RenderTargetArrayIndex;
 };
-[maxvertexcount(12)]
+#ifndef COUNT
+#define COUNT 4
+#endif
+[maxvertexcount(3 * COUNT)]
 void GSMain(triangle Varying v[3], inout TriangleStream<LayerOut> stream) {
-  for (uint layer = 0u; layer < 4u; ++layer) {
+  for (uint layer = 0u; layer < uint(COUNT); ++layer) {
     [unroll] for (uint i = 0u; i < 3u; ++i) {
       LayerOut o;
       o.position = v[i].position;
