@@ -33,6 +33,9 @@ inline constexpr std::array<uint32_t, kStageCount> kGlMaxBuffers{4, 4, 4, 8};
 inline constexpr uint32_t kGlUavBufferBase = 8;
 inline constexpr uint32_t kGlDrawParametersBlock = 4;
 inline constexpr const char* kGlLastStageMacro = "RHI_LAST_STAGE_BEFORE_RASTERIZER";
+// Compiled with this define, a pixel shader's SV_Target1 is the second source of target 0 (Blend::Src1Color and kin).
+// Direct3D 10 decides that by the blend factors; Vulkan and GL in the shader.
+inline constexpr const char* kDualSourceMacro = "RHI_DUAL_SOURCE";
 inline constexpr uint8_t kNoSampler = 0xFF;
 
 enum class ShaderResourceKind : uint8_t { Texture, StructuredBuffer, RWTexture, RWStructuredBuffer };

@@ -28,6 +28,25 @@ void GSMain(triangle Varying v[3], inout TriangleStream<LayerOut> stream) {
     stream.RestartStrip();
   }
 }
+#elif defined(VIEWPORTS)
+struct ViewportOut {
+  float4 position : SV_Position;
+  float2 uv : TEXCOORD0;
+  uint viewport : SV_ViewportArrayIndex;
+};
+[maxvertexcount(12)]
+void GSMain(triangle Varying v[3], inout TriangleStream<ViewportOut> stream) {
+  for (uint viewport = 0u; viewport < 4u; ++viewport) {
+    [unroll] for (uint i = 0u; i < 3u; ++i) {
+      ViewportOut o;
+      o.position = v[i].position;
+      o.uv = float2(float(viewport + 1u) / 255.0, 0);
+      o.viewport = viewport;
+      stream.Append(o);
+    }
+    stream.RestartStrip();
+  }
+}
 #elif defined(MANY)
 // 42 quads of 4 vertices, 6 scalars a vertex: 1008 of the 1024 scalars that may be emitted. Each covers a column.
 [maxvertexcount(168)]
