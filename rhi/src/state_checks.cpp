@@ -33,9 +33,7 @@ bool Valid(const RenderTargetBlend& b) {
   return Valid(b.src) && Valid(b.dest) && Valid(b.srcAlpha) && Valid(b.destAlpha) && Valid(b.op) && Valid(b.opAlpha);
 }
 
-bool Valid(const StencilFace& f) {
-  return Valid(f.fail) && Valid(f.depthFail) && Valid(f.pass) && Valid(f.func);
-}
+bool Valid(const StencilFace& f) { return Valid(f.fail) && Valid(f.depthFail) && Valid(f.pass) && Valid(f.func); }
 
 bool UsesSecondSource(const RenderTargetBlend& t) {
   const auto second = [](Blend b) { return b >= Blend::Src1Color; };
@@ -71,8 +69,10 @@ Status CheckDepthStencilDesc(const DepthStencilDesc& d, const MessageLog& log) {
 
 Status CheckRasterizerDesc(const RasterizerDesc& d, const Caps& caps, const MessageLog& log) {
   const bool fill = d.fill == FillMode::Wireframe || d.fill == FillMode::Solid;
-  if (!fill || !UpTo(d.cull, CullMode::Back)) return Invalid(log, "a RasterizerDesc has a fill or cull mode that is none");
-  if (d.fill == FillMode::Wireframe && !caps.wireframe) return Lacking(log, "FillMode::Wireframe needs Caps::wireframe");
+  if (!fill || !UpTo(d.cull, CullMode::Back))
+    return Invalid(log, "a RasterizerDesc has a fill or cull mode that is none");
+  if (d.fill == FillMode::Wireframe && !caps.wireframe)
+    return Lacking(log, "FillMode::Wireframe needs Caps::wireframe");
   if (!d.depthClip && !caps.depthClipDisable) return Lacking(log, "depthClip = false needs Caps::depthClipDisable");
   if (d.depthBiasClamp != 0 && !caps.depthBiasClamp) return Lacking(log, "depthBiasClamp needs Caps::depthBiasClamp");
   return Status::Ok;

@@ -9,14 +9,14 @@ namespace {
 
 // In the order of rhi::PipelineStatistics.
 constexpr std::array<GLenum, QuerySegment::kMaxNames> kStatistics{GL_VERTICES_SUBMITTED_ARB,
-                                                           GL_PRIMITIVES_SUBMITTED_ARB,
-                                                           GL_VERTEX_SHADER_INVOCATIONS_ARB,
-                                                           GL_GEOMETRY_SHADER_INVOCATIONS,
-                                                           GL_GEOMETRY_SHADER_PRIMITIVES_EMITTED_ARB,
-                                                           GL_CLIPPING_INPUT_PRIMITIVES_ARB,
-                                                           GL_CLIPPING_OUTPUT_PRIMITIVES_ARB,
-                                                           GL_FRAGMENT_SHADER_INVOCATIONS_ARB,
-                                                           GL_COMPUTE_SHADER_INVOCATIONS_ARB};
+                                                                  GL_PRIMITIVES_SUBMITTED_ARB,
+                                                                  GL_VERTEX_SHADER_INVOCATIONS_ARB,
+                                                                  GL_GEOMETRY_SHADER_INVOCATIONS,
+                                                                  GL_GEOMETRY_SHADER_PRIMITIVES_EMITTED_ARB,
+                                                                  GL_CLIPPING_INPUT_PRIMITIVES_ARB,
+                                                                  GL_CLIPPING_OUTPUT_PRIMITIVES_ARB,
+                                                                  GL_FRAGMENT_SHADER_INVOCATIONS_ARB,
+                                                                  GL_COMPUTE_SHADER_INVOCATIONS_ARB};
 static_assert(sizeof(PipelineStatistics) == sizeof(uint64_t) * QuerySegment::kMaxNames);
 
 GLenum TargetOf(QueryType type, uint32_t i) {
