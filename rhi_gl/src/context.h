@@ -156,7 +156,8 @@ class Context final : public backend::ContextBase {
   void MarkMoved(const Buffer&);
 
   // queries.cpp
-  bool CheckQuery(const Query&, bool begin);
+  bool CheckQuery(const Query*, bool begin);
+  void NextSegment(uint32_t target, SegmentPtr next);
 
   // context_frame.cpp
   void Enter();
@@ -194,7 +195,8 @@ class Context final : public backend::ContextBase {
 
   uint64_t ringTakenAtReset_ = 0;
   uint32_t eventDepth_ = 0;
-  std::array<Ref<Query>, kQueryTargets> activeQueries_;
+  std::vector<Ref<Query>> activeQueries_;
+  std::array<SegmentPtr, kQueryTargets> runningSegments_;
   std::unordered_map<uint16_t, uint64_t> reported_;  // code -> frame
 };
 

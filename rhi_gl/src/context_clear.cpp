@@ -122,11 +122,11 @@ void Context::GenerateMips(IShaderResourceView* target) {
   const auto* view = static_cast<const ShaderResourceView*>(target);
   if (!view || !view->texture) return Refuse(MsgCode::InvalidDesc, "", "GenerateMips", "it needs a view of a texture");
   const TextureDesc& desc = view->texture->Desc();
-  const FormatInfo& format = GetFormatInfo(desc.format);
   if (!(desc.bind & Bind::RenderTarget))
     return Refuse(MsgCode::WrongBindFlag, desc.name, "GenerateMips", "the texture needs Bind::RenderTarget");
-  if (format.isInteger || desc.sampleCount > 1)
-    return Refuse(MsgCode::FormatMismatch, desc.name, "GenerateMips", "the format cannot be filtered");
+  if (!(QueryFormatSupport(desc.format, core_.caps) & FormatSupport::MipAutogen))
+    return Refuse(MsgCode::CapMissing, desc.name, "GenerateMips",
+                  "this format has no FormatSupport::MipAutogen on this adapter");
   OpenGates();
   if (desc.dim == TextureDim::Tex3D) {
     glGenerateTextureMipmap(view->name);  // slices of a Tex3D are filtered too, which a blit cannot

@@ -13,6 +13,7 @@ Status CheckFormat(const Core& core, const TextureDesc& desc) {
   if ((desc.bind & Bind::RenderTarget) && !(support & FormatSupport::RenderTarget)) lacks = "render targets";
   if ((desc.bind & Bind::DepthStencil) && !(support & FormatSupport::DepthStencil)) lacks = "depth-stencil targets";
   if ((desc.bind & Bind::UnorderedAccess) && !(support & FormatSupport::UnorderedAccess)) lacks = "unordered access";
+  if (IsCompressed(desc.format) && desc.dim == TextureDim::Tex3D) lacks = "3D textures";
   if (desc.sampleCount > 1 && !SupportsSamples(desc.format, desc.sampleCount)) lacks = "that many samples";
   if (!lacks) return Status::Ok;
   core.log.Report(Severity::Error, MsgCode::CapMissing, desc.name, "%s does not offer %s here; see CheckFormatSupport",

@@ -74,9 +74,10 @@ Status Buffer::Create() {
     return Status::Ok;
   }
   const bool staging = desc_.usage == Usage::Staging;
-  // Constant buffers are read in rows of 16 bytes.
-  return gpu.Create(*core_, desc_.name, AlignUp(desc_.byteWidth, 16u), UsageOf(desc_),
-                    staging ? MemoryKind::Readback : MemoryKind::Gpu);
+  // Constant buffers are read in rows of 16 bytes. Others end where they end: drivers find vertices beyond by the
+  // buffer's size.
+  const uint32_t size = desc_.bind & Bind::ConstantBuffer ? AlignUp(desc_.byteWidth, 16u) : desc_.byteWidth;
+  return gpu.Create(*core_, desc_.name, size, UsageOf(desc_), staging ? MemoryKind::Readback : MemoryKind::Gpu);
 }
 
 }  // namespace rhi_vulkan

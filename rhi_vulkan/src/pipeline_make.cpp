@@ -207,7 +207,9 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   assembly.topology = TopologyOf(key.topology);
   VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
   VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-  const std::array<VkSampleMask, 2> mask{key.sampleMask, ~0u};
+  // Bits beyond the last sample are no samples: lavapipe would take any bit for the only one.
+  const std::array<VkSampleMask, 2> mask{key.samples < 32 ? key.sampleMask & ((1u << key.samples) - 1) : key.sampleMask,
+                                         ~0u};
   multisample.rasterizationSamples = VkSampleCountFlagBits(key.samples);
   multisample.pSampleMask = mask.data();
   multisample.alphaToCoverageEnable = blendDesc.alphaToCoverage;
