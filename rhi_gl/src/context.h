@@ -18,6 +18,7 @@ enum OwnDirty : uint32_t {
   DirtyBarrier = 1u << 24,       // a dispatch wrote: the next reader needs a memory barrier
   DirtyUnusable = 1u << 25,      // the state was refused at the last draw: look again
   DirtyThread = 1u << 26,        // another context may be current on this thread: ask EGL
+  DirtyFirstVertex = 1u << 27,   // block kGlDrawParametersBlock may hold another first vertex than readyFirst_
   DirtyConstantSlot = 1u << 28,  // << slot: the slot's buffer has new contents
 };
 
@@ -88,17 +89,18 @@ class Context final : public backend::ContextBase {
 
  private:
   // context_draw.cpp
-  bool Ready(int64_t firstVertex) const;
+  bool Ready(uint32_t firstVertex) const;
   bool Prepare(int64_t firstVertex);
   void PrepareAndDraw(uint32_t vertexCount, uint32_t startVertex);
   bool PrepareIndexed();
   bool ApplyGraphics();
   bool CheckGraphics();
   bool CheckInputs(const Shader& vs, const Shader* gs);
-  void ApplyProgram(const Shader& vs);
+  void ApplyProgram();
   void ApplyVertexArray();
   void ApplyIndexBuffer(VertexArray&);
   void ApplyOutput();
+  void ApplyBlend();
   void SetFirstVertex(int32_t first);
   const void* IndexPointer(uint32_t startIndex) const;
   const Buffer* CheckIndirect(IBuffer* args, uint32_t offset, uint32_t size);
@@ -183,6 +185,7 @@ class Context final : public backend::ContextBase {
 
   VertexArray emptyArray_;    // for draws without an input layout
   int64_t firstVertex_ = -1;  // what block kGlDrawParametersBlock holds; -1: unknown
+  uint32_t readyFirst_ = 0;   // the first vertex of the last draw that was prepared
   GLuint indirectFirst_ = 0;  // its buffer for indirect draws
   GLuint scratchIndices_ = 0;
   uint32_t scratchIndicesUid_ = 0;

@@ -10,14 +10,15 @@ using namespace backend;
 
 namespace {
 
-// `size` is one register or more. Cheaper than memcpy for as few as constants are.
+// `size` is one register or more. Cheaper than memcpy for as few as constants are, and from the back, where the end of
+// the loop needs no comparison of its own.
 inline void CopyRegisters(std::byte* to, const void* from, uint32_t size) {
   const auto* source = static_cast<const std::byte*>(from);
-  uint64_t at = 0;
+  uint64_t at = size;
   do {
+    at -= kRegisterBytes;
     std::memcpy(to + at, source + at, kRegisterBytes);
-    at += kRegisterBytes;
-  } while (at != size);
+  } while (at != 0);
 }
 
 }  // namespace

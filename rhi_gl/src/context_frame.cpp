@@ -115,9 +115,7 @@ Status Context::Precache(const PipelineKeyDesc& key) {
     Refuse(MsgCode::NoVertexShader, "", "PrecachePipeline", "it needs a vertex shader, and each shader in its place");
     return Status::InvalidArg;
   }
-  bool made = false;
-  const Program& program = core_.programs.Get(vs, gs, ps, &made);
-  stats_.pipelineMisses += made;
+  const Program& program = core_.programs.Get(vs, gs, ps, &stats_.pipelineMisses);
   return program.name ? Status::Ok : Status::CompileFailed;
 }
 

@@ -50,6 +50,7 @@ bool Shader::SortResources() {
     if (IsWritable(r)) writable.push_back(&r);
   }
   std::sort(storage.begin(), storage.end(), BySlot);
+  readsResources = !pairs.empty() || !storage.empty();
   for (const ShaderInput& input : reflection.inputs) inputMask |= 1u << input.location;
   const bool complete = std::find(pairs.begin(), pairs.end(), nullptr) == pairs.end();
   return complete && pairs.size() <= kMaxShaderResources && storage.size() <= kGlMaxBuffers[size_t(stage)];
