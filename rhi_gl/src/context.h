@@ -83,7 +83,7 @@ class Context final : public backend::ContextBase {
   Status ReadBack(ITexture*, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch);
   Status ReadBack(IBuffer*, uint32_t offset, uint32_t size, void* out);
   Status WaitIdle();
-  bool ShowInWindow(const WindowPicture&);  // false: the window is gone
+  Status ShowInWindow(const WindowPicture&);  // SurfaceLost: the window is gone
   Status Precache(const PipelineKeyDesc&);
   Stats GetStats(bool reset);
 
@@ -105,7 +105,7 @@ class Context final : public backend::ContextBase {
   const void* IndexPointer(uint32_t startIndex) const;
   const Buffer* CheckIndirect(IBuffer* args, uint32_t offset, uint32_t size);
   void BindFirstVertexFrom(const Buffer& args, uint32_t offset);
-  void IndicesFromZero();
+  bool IndicesFromZero();
 
   // context_bind.cpp
   void UnmarkConstants();
@@ -123,10 +123,10 @@ class Context final : public backend::ContextBase {
   bool PrepareDispatch();
   void FinishDispatch();
   void Barrier();
-  void Settle();  // before anything that reads or writes resources outside of draws
+  bool Settle();  // before anything that reads or writes resources outside of draws; false: as Enter
 
   // context_clear.cpp
-  void OpenGates();
+  bool OpenGates();
   struct ClearPlace {
     GLuint framebuffer;
     GLint drawBuffer;
@@ -154,15 +154,15 @@ class Context final : public backend::ContextBase {
   Status RefuseMap(const char* name, MsgCode, const char* why) const;
   void UpdateElsewhere(Buffer*, const void* data, uint32_t size);
   void RefuseUpdate(const Buffer*, uint32_t size);
-  void WaitForCopies(bool* touched);
+  Status WaitForCopies(bool* touched);
   void MarkMoved(const Buffer&);
 
   // queries.cpp
   bool CheckQuery(const Query&, bool begin);
 
   // context_frame.cpp
-  void Enter();
-  void FinishAll();
+  bool Enter();  // false: the call is ignored (Core::Enter)
+  Status FinishAll();
   void AfterFrame();
   // At most once a frame for each code, so that a broken draw of every frame does not drown the rest.
   [[gnu::format(printf, 4, 5)]] void ReportOnce(Severity, MsgCode, const char* format, ...);
@@ -188,7 +188,6 @@ class Context final : public backend::ContextBase {
   uint32_t readyFirst_ = 0;   // the first vertex of the last draw that was prepared
   GLuint indirectFirst_ = 0;  // its buffer for indirect draws
   GLuint scratchIndices_ = 0;
-  uint32_t scratchIndicesUid_ = 0;
   uint64_t scratchIndicesBytes_ = 0;
   std::array<std::array<GLuint, 2>, 5> dummies_{};  // zero textures by TextureDim and integer
   std::array<std::array<uint32_t, 2>, 5> dummyUids_{};

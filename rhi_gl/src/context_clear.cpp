@@ -6,10 +6,11 @@ namespace rhi_gl {
 using namespace backend;
 
 // Direct3D's clears and copies know no scissor, masks or discard. The next draw sets them again.
-void Context::OpenGates() {
-  Settle();
+bool Context::OpenGates() {
+  if (!Settle()) return false;
   gl_.CloseClearGates();
   dirty_ |= DirtyRaster | DirtyBlendFactor;
+  return true;
 }
 
 // The framebuffer that is drawn to where it shows the view, lest another one is bound for nothing.
@@ -26,7 +27,7 @@ Context::ClearPlace Context::PlaceOf(const RenderTargetView& view) {
 void Context::ClearRenderTargetView(IRenderTargetView* target, const float rgba[4]) {
   const auto* view = static_cast<const RenderTargetView*>(target);
   if (!view) return Refuse(MsgCode::InvalidDesc, "", "ClearRenderTargetView", "the view is null");
-  OpenGates();
+  if (!OpenGates()) return;
   const ClearPlace place = PlaceOf(*view);
   gl_.OpenColorMask(uint32_t(place.drawBuffer));
   dirty_ |= DirtyBlend;
@@ -43,7 +44,7 @@ void Context::ClearDepthStencilView(IDepthStencilView* target, bool clearDepth, 
                                     uint8_t stencil) {
   const auto* view = static_cast<const DepthStencilView*>(target);
   if (!view) return Refuse(MsgCode::InvalidDesc, "", "ClearDepthStencilView", "the view is null");
-  OpenGates();
+  if (!OpenGates()) return;
   const bool bound = framebuffer_ && !(dirty_ & DirtyTargets) && state_.depthTarget.get() == view &&
                      framebuffer_->problem == MsgCode::None;
   TargetSet set;
@@ -111,7 +112,7 @@ void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITextur
   if (format == Format::Unknown) format = from->Desc().format;
   if (const char* why = WhyNotResolve(*to, dstSubresource, *from, srcSubresource, format))
     return Refuse(MsgCode::FormatMismatch, to->Desc().name, "ResolveSubresource", why);
-  OpenGates();
+  if (!OpenGates()) return;
   const FormatView toView(*to, format), fromView(*from, format);
   const MipLayout m = to->Layout(dstSubresource);
   BlitPair().Blit(fromView.At(0, 0), m.width, m.height,
@@ -127,7 +128,7 @@ void Context::GenerateMips(IShaderResourceView* target) {
     return Refuse(MsgCode::WrongBindFlag, desc.name, "GenerateMips", "the texture needs Bind::RenderTarget");
   if (format.isInteger || desc.sampleCount > 1)
     return Refuse(MsgCode::FormatMismatch, desc.name, "GenerateMips", "the format cannot be filtered");
-  OpenGates();
+  if (!OpenGates()) return;
   if (desc.dim == TextureDim::Tex3D) {
     glGenerateTextureMipmap(view->name);  // slices of a Tex3D are filtered too, which a blit cannot
     return;

@@ -72,7 +72,7 @@ void Context::UpdateSubresource(IResource* dst, uint32_t subresource, const Box*
   if (!CheckWritable(dst, "UpdateSubresource")) return;
   if (dst->GetUsage() == Usage::Staging || !data)
     return Refuse(MsgCode::MapMode, "", "UpdateSubresource", "it needs Default usage and data; map staging resources");
-  Settle();
+  if (!Settle()) return;
   if (Buffer* b = AsBuffer(dst)) {
     UpdateBuffer(*b, box, data);
   } else {
@@ -132,7 +132,7 @@ void Context::CopyBuffer(Buffer& dst, uint32_t at, Buffer& src, const Box* box) 
     return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a buffer copy", "the range is empty or beyond a buffer");
   if (&dst == &src && begin < at + size && at < begin + size)
     return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a buffer copy", "the ranges overlap");
-  Settle();
+  if (!Settle()) return;
   glCopyNamedBufferSubData(src.name, dst.name, GLintptr(uint64_t(src.offset) + begin),
                            GLintptr(uint64_t(dst.offset) + at), size);
   dst.gpuTouched = src.gpuTouched = true;
@@ -153,7 +153,7 @@ void Context::CopyTexture(Texture& dst, uint32_t dstSub, uint32_t x, uint32_t y,
   if (&dst == &src && dstSub == srcSub)
     return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a texture copy",
                   "source and destination are one subresource");
-  Settle();
+  if (!Settle()) return;
   CopyBlock(to, from);
 }
 

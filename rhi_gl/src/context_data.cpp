@@ -37,8 +37,7 @@ void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) 
 // Whatever is not as it was at the last update: the size, the page, the current context; and mistakes.
 void Context::UpdateElsewhere(Buffer* buffer, const void* data, uint32_t size) {
   if (!buffer || !buffer->IsRingConstant() || size > buffer->Desc().byteWidth) return RefuseUpdate(buffer, size);
-  Enter();
-  std::byte* slice = ring_.Rename(*buffer);
+  std::byte* slice = Enter() ? ring_.Rename(*buffer) : nullptr;
   if (!slice) return;
   std::memcpy(slice, data, size);
   dirty_ |= buffer->boundSlots * DirtyConstantSlot;
@@ -67,9 +66,9 @@ Status Context::RefuseMap(const char* name, MsgCode code, const char* why) const
   return Status::InvalidArg;
 }
 
-void Context::WaitForCopies(bool* touched) {
-  if (*touched) FinishAll();
-  *touched = false;
+Status Context::WaitForCopies(bool* touched) {
+  if (!std::exchange(*touched, false)) return Status::Ok;
+  return FinishAll();
 }
 
 Status Context::MapBuffer(Buffer& b, MapMode mode, Mapped* out) {
@@ -82,14 +81,15 @@ Status Context::MapBuffer(Buffer& b, MapMode mode, Mapped* out) {
                      "dynamic buffers take WriteDiscard and WriteNoOverwrite, staging ones Read and Write");
   if (b.IsRingConstant() && !discard)
     return RefuseMap(name, MsgCode::MapMode, "constant buffers take WriteDiscard only, as in Direct3D 10");
-  if (staging) WaitForCopies(&b.gpuTouched);
+  if (staging)
+    if (Status s = WaitForCopies(&b.gpuTouched); s != Status::Ok) return s;
   std::byte* data = b.data;
   if (discard) {
     data = b.IsRingConstant() ? ring_.Rename(b) : b.Rename();
     if (!b.IsRingConstant()) stats_.ringBytes += b.Desc().byteWidth;
     MarkMoved(b);
   }
-  if (!data) return Status::OutOfMemory;
+  if (!data) return core_.IsLost() ? Status::DeviceLost : Status::OutOfMemory;
   b.mapped = true;
   *out = {data, b.Desc().byteWidth, b.Desc().byteWidth};
   return Status::Ok;
@@ -102,7 +102,7 @@ Status Context::MapTexture(Texture& t, uint32_t subresource, MapMode mode, Mappe
   if (subresource >= t.SubresourceCount())
     return RefuseMap(name, MsgCode::SubresourceOutOfRange, "the subresource does not exist");
   if (t.mapped[subresource]) return RefuseMap(name, MsgCode::MapTwice, "it is mapped already; call Unmap first");
-  WaitForCopies(&t.gpuTouched);
+  if (Status s = WaitForCopies(&t.gpuTouched); s != Status::Ok) return s;
   const MipLayout m = t.Layout(subresource);
   std::byte* data = t.stagingData + t.StagingOffset(subresource);
   if (t.Desc().format == Format::D24_UNorm_S8_UInt) DepthStencilFromGl(data, m.sliceBytes * m.depth / 4);
@@ -113,7 +113,7 @@ Status Context::MapTexture(Texture& t, uint32_t subresource, MapMode mode, Mappe
 
 Status Context::Map(IResource* resource, uint32_t subresource, MapMode mode, Mapped* out) {
   *out = {};
-  Settle();
+  if (!Settle()) return Status::DeviceLost;
   if (Buffer* b = AsBuffer(resource)) return MapBuffer(*b, mode, out);
   if (Texture* t = AsTexture(resource)) return MapTexture(*t, subresource, mode, out);
   return RefuseMap("", MsgCode::InvalidDesc, "the resource is null");
@@ -164,8 +164,8 @@ Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, siz
     Refuse(exists ? MsgCode::OutOfBounds : MsgCode::SubresourceOutOfRange, t ? t->Desc().name : "", "ReadBack", why);
     return Status::InvalidArg;
   }
-  Settle();
-  FinishAll();
+  if (!Settle()) return Status::DeviceLost;
+  if (Status s = FinishAll(); s != Status::Ok) return s;
   if (t->IsStaging()) {
     CopyStagingRows(*t, subresource, static_cast<std::byte*>(out), rowPitch);
     return Status::Ok;
@@ -182,8 +182,8 @@ Status Context::ReadBack(IBuffer* buffer, uint32_t offset, uint32_t size, void* 
     Refuse(MsgCode::OutOfBounds, b ? b->Desc().name : "", "ReadBack", b ? "it reaches beyond the end" : "null buffer");
     return Status::InvalidArg;
   }
-  Settle();
-  FinishAll();
+  if (!Settle()) return Status::DeviceLost;
+  if (Status s = FinishAll(); s != Status::Ok) return s;
   glGetNamedBufferSubData(b->name, GLintptr(uint64_t(b->offset) + offset), size, out);
   return Status::Ok;
 }

@@ -165,25 +165,29 @@ void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
 
 // Indirect draws count indices from the start of GL's buffer, Direct3D from the offset it was bound with: they get a
 // copy that starts there.
-void Context::IndicesFromZero() {
+bool Context::IndicesFromZero() {
   auto* buffer = static_cast<Buffer*>(state_.indexBuffer.get());
   const uint64_t bytes = buffer->Desc().byteWidth - state_.indexOffset;
   if (scratchIndicesBytes_ < bytes) {
     core_.Discard(NameKind::Buffer, scratchIndices_);
-    glCreateBuffers(1, &scratchIndices_);
-    glNamedBufferStorage(scratchIndices_, GLsizeiptr(bytes), nullptr, 0);
-    scratchIndicesUid_ = core_.NewUid();
-    scratchIndicesBytes_ = bytes;
+    const bool fits = core_.Allocates([&] {
+      glCreateBuffers(1, &scratchIndices_);
+      glNamedBufferStorage(scratchIndices_, GLsizeiptr(bytes), nullptr, 0);
+    });
+    scratchIndicesBytes_ = fits ? bytes : 0;
+    if (!fits) core_.OutOfMemory("", "copy of the indices of an indirect draw, which is skipped");
+    if (!fits) return false;
   }
   glCopyNamedBufferSubData(buffer->name, scratchIndices_, GLintptr(indexBase_), 0, GLsizeiptr(bytes));
   const auto* layout = static_cast<const InputLayout*>(state_.layout.get());
   glVertexArrayElementBuffer(layout ? layout->array.name : emptyArray_.name, scratchIndices_);
+  return true;
 }
 
 void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
   const Buffer* buffer = CheckIndirect(args, offset, sizeof(DrawIndexedArgs));
   if (!buffer || !PrepareIndexed()) return;
-  if (indexBase_ != 0) IndicesFromZero();
+  if (indexBase_ != 0 && !IndicesFromZero()) return;
   gl_.UseIndirect(buffer->uid, buffer->name);
   ++stats_.draws;
   glDrawElementsIndirect(mode_, indexType_, reinterpret_cast<const void*>(uint64_t(buffer->offset) + offset));
@@ -316,7 +320,7 @@ inline void Context::ApplyBlend() {
 }
 
 bool Context::ApplyGraphics() {
-  if (dirty_ & DirtyThread) Enter();
+  if ((dirty_ & DirtyThread) && !Enter()) return false;
   if (dirty_ & DirtyBarrier) Barrier();
   if (!CheckGraphics()) {
     dirty_ |= DirtyUnusable;

@@ -100,7 +100,7 @@ Program ProgramCache::Make(const Shader* vs, const Shader* gs, const Shader* ps)
   const ShaderCode* vertexCode = gs ? Compile(Stage::Vertex, vs->glsl, false, &why) : vs->code;
   p.name =
       LinkProgram({vertexCode ? vertexCode->shader : 0, gs ? gs->code->shader : 0, ps ? ps->code->shader : 0}, &why);
-  if (p.name == 0)
+  if (p.name == 0 && core_.Alive())
     core_.log.Report(Severity::Error, MsgCode::ShaderRejected, vs->Name().c_str(),
                      "the driver cannot link %s, %s and %s: %s", vs->Name().c_str(), gs ? gs->Name().c_str() : "no GS",
                      ps ? ps->Name().c_str() : "no PS", why.c_str());

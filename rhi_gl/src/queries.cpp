@@ -48,7 +48,6 @@ Status Query::Create(const CorePtr& core, const QueryDesc& desc, Ref<IQuery>* ou
     core->log.Report(Severity::Error, MsgCode::CapMissing, "", "this driver has no pipeline statistics");
     return Status::Unsupported;
   }
-  core->Enter();
   auto query = Ref<Query>::Adopt(new Query(core, desc.type));
   query->nameCount_ = NamesOf(desc.type);
   // Not glCreateQueries: Mesa's knows no pipeline statistics.
@@ -147,8 +146,7 @@ bool Context::CheckQuery(const Query& q, bool begin) {
 
 void Context::Begin(IQuery* query) {
   auto* q = static_cast<Query*>(query);
-  Enter();
-  if (!q || !CheckQuery(*q, true)) return;
+  if (!Enter() || !q || !CheckQuery(*q, true)) return;
   q->BeginGl();
   // Held until its End: GL's query must not die while it runs.
   if (q->Target() < kQueryTargets) activeQueries_[q->Target()] = Ref<Query>(q);
@@ -156,15 +154,14 @@ void Context::Begin(IQuery* query) {
 
 void Context::End(IQuery* query) {
   auto* q = static_cast<Query*>(query);
-  Enter();
-  if (!q || !CheckQuery(*q, false)) return;
+  if (!Enter() || !q || !CheckQuery(*q, false)) return;
   q->EndGl();
   if (q->Target() < kQueryTargets) activeQueries_[q->Target()] = nullptr;
 }
 
 Status Context::GetData(IQuery* query, void* data, uint32_t size, bool flush) {
   auto* q = static_cast<Query*>(query);
-  Enter();
+  if (!core_.Alive() || !Enter()) return Status::DeviceLost;
   if (!q || q->state != Query::State::Ended) {
     log_.Report(Severity::Error, MsgCode::QueryOrder, q ? q->Name().c_str() : "",
                 "GetData needs a query that was ended");

@@ -48,7 +48,6 @@ void UseGlView(ViewData& v) {
 template <class V>
 Status MakeTextureView(const CorePtr& core, Texture* texture, const ViewDesc* wanted, Bind need, Ref<V>* out) {
   ViewDesc desc;
-  core->Enter();
   if (Status s = ResolveTextureView(texture->Desc(), wanted, need, &desc, core->log); s != Status::Ok) return s;
   if (texture->Desc().dim == TextureDim::TexCube && desc.sliceCount != 6) {
     core->log.Report(Severity::Error, MsgCode::InvalidDesc, texture->Desc().name,
@@ -68,7 +67,6 @@ Status MakeTextureView(const CorePtr& core, Texture* texture, const ViewDesc* wa
 template <class V>
 Status MakeTargetView(const CorePtr& core, Texture* texture, const ViewDesc* wanted, Bind need, Ref<V>* out) {
   ViewDesc desc;
-  core->Enter();
   if (Status s = ResolveTextureView(texture->Desc(), wanted, need, &desc, core->log); s != Status::Ok) return s;
   *out = NewView<V>(core, texture, desc);
   V& view = **out;
