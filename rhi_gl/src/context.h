@@ -147,13 +147,11 @@ class Context final : public backend::ContextBase {
                    const Box*);
   void CopyBlock(const CopyPlace& dst, const CopyPlace& src);
   void CopyStaging(const CopyPlace& dst, const CopyPlace& src);
-  bool CheckWritable(IResource*, const char* call);
   void Refuse(MsgCode, const char* name, const char* call, const char* why);
   Status MapBuffer(Buffer&, MapMode, Mapped*);
   Status MapTexture(Texture&, uint32_t subresource, MapMode, Mapped*);
   Status RefuseMap(const char* name, MsgCode, const char* why) const;
   void UpdateElsewhere(Buffer*, const void* data, uint32_t size);
-  void RefuseUpdate(const Buffer*, uint32_t size);
   Status WaitForCopies(bool* touched);
   void MarkMoved(const Buffer&);
 

@@ -1,5 +1,6 @@
 // Clears, resolves and mips: what GL does through framebuffers besides drawing.
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_gl {
 
@@ -90,28 +91,15 @@ class FormatView {
   Attachment whole_;
 };
 
-const char* WhyNotResolve(const Texture& dst, uint32_t dstSub, const Texture& src, uint32_t srcSub, Format format) {
-  if (dst.IsStaging() || src.IsStaging()) return "a staging texture cannot be resolved";
-  if (dstSub >= dst.SubresourceCount() || srcSub >= src.SubresourceCount()) return "a subresource does not exist";
-  if (src.Desc().dim != TextureDim::Tex2DMS || dst.Desc().sampleCount != 1)
-    return "the source must be multisampled and the destination not";
-  const MipLayout to = dst.Layout(dstSub), from = src.Layout(srcSub);
-  if (to.width != from.width || to.height != from.height) return "the sizes differ";
-  const Format family = ToLinear(format);
-  if (ToLinear(dst.Desc().format) != family || ToLinear(src.Desc().format) != family)
-    return "source, destination and format must be one format or its sRGB twin";
-  return GetFormatInfo(format).depth ? "depth cannot be resolved, as in Direct3D 10" : nullptr;
-}
-
 }  // namespace
 
 void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITexture* src, uint32_t srcSubresource,
                                  Format format) {
   const Texture *to = AsTexture(dst), *from = AsTexture(src);
   if (!to || !from) return Refuse(MsgCode::InvalidDesc, "", "ResolveSubresource", "a texture is null");
-  if (format == Format::Unknown) format = from->Desc().format;
-  if (const char* why = WhyNotResolve(*to, dstSubresource, *from, srcSubresource, format))
-    return Refuse(MsgCode::FormatMismatch, to->Desc().name, "ResolveSubresource", why);
+  const Misuse misuse = CheckResolve({to->Desc(), dstSubresource}, {from->Desc(), srcSubresource}, format);
+  if (misuse.Refuses(log_, to->Desc().name)) return;
+  format = from->Desc().format;
   if (!OpenGates()) return;
   const FormatView toView(*to, format), fromView(*from, format);
   const MipLayout m = to->Layout(dstSubresource);

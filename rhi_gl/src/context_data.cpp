@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_gl {
 
@@ -36,7 +37,8 @@ void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) 
 
 // Whatever is not as it was at the last update: the size, the page, the current context; and mistakes.
 void Context::UpdateElsewhere(Buffer* buffer, const void* data, uint32_t size) {
-  if (!buffer || !buffer->IsRingConstant() || size > buffer->Desc().byteWidth) return RefuseUpdate(buffer, size);
+  if (!buffer) return Refuse(MsgCode::NothingBound, "", "UpdateConstants", "the buffer is null");
+  if (CheckUpdateConstants(buffer->Desc(), size).Refuses(log_, buffer->Desc().name)) return;
   std::byte* slice = Enter() ? ring_.Rename(*buffer) : nullptr;
   if (!slice) return;
   std::memcpy(slice, data, size);
@@ -44,13 +46,6 @@ void Context::UpdateElsewhere(Buffer* buffer, const void* data, uint32_t size) {
   if (size == 0 || size % kRegisterBytes != 0 || !std::has_single_bit(buffer->boundSlots)) return;
   buffer->quickSize = size;
   buffer->quickSlot = uint32_t(std::countr_zero(buffer->boundSlots));
-}
-
-void Context::RefuseUpdate(const Buffer* buffer, uint32_t size) {
-  if (!buffer) return Refuse(MsgCode::NothingBound, "", "UpdateConstants", "the buffer is null");
-  const bool tooLarge = size > buffer->Desc().byteWidth;
-  Refuse(tooLarge ? MsgCode::OutOfBounds : MsgCode::MapMode, buffer->Desc().name, "UpdateConstants",
-         "it needs a dynamic constant buffer and at most its byteWidth of data");
 }
 
 void Context::MarkMoved(const Buffer& buffer) {
@@ -73,14 +68,9 @@ Status Context::WaitForCopies(bool* touched) {
 
 Status Context::MapBuffer(Buffer& b, MapMode mode, Mapped* out) {
   const char* name = b.Desc().name;
-  const bool staging = b.GetUsage() == Usage::Staging, dynamic = b.GetUsage() == Usage::Dynamic;
-  const bool discard = mode == MapMode::WriteDiscard, write = discard || mode == MapMode::WriteNoOverwrite;
+  const bool staging = b.GetUsage() == Usage::Staging, discard = mode == MapMode::WriteDiscard;
+  if (CheckMap(b.Desc(), mode).Refuses(log_, name)) return Status::InvalidArg;
   if (b.mapped) return RefuseMap(name, MsgCode::MapTwice, "the buffer is mapped already; call Unmap first");
-  if (!(dynamic && write) && !(staging && !write))
-    return RefuseMap(name, MsgCode::MapMode,
-                     "dynamic buffers take WriteDiscard and WriteNoOverwrite, staging ones Read and Write");
-  if (b.IsRingConstant() && !discard)
-    return RefuseMap(name, MsgCode::MapMode, "constant buffers take WriteDiscard only, as in Direct3D 10");
   if (staging)
     if (Status s = WaitForCopies(&b.gpuTouched); s != Status::Ok) return s;
   std::byte* data = b.data;
@@ -97,10 +87,7 @@ Status Context::MapBuffer(Buffer& b, MapMode mode, Mapped* out) {
 
 Status Context::MapTexture(Texture& t, uint32_t subresource, MapMode mode, Mapped* out) {
   const char* name = t.Desc().name;
-  if (!t.IsStaging() || (mode != MapMode::Read && mode != MapMode::Write))
-    return RefuseMap(name, MsgCode::MapMode, "textures are mapped with Usage::Staging only, for Read or Write");
-  if (subresource >= t.SubresourceCount())
-    return RefuseMap(name, MsgCode::SubresourceOutOfRange, "the subresource does not exist");
+  if (CheckMap(t.Desc(), subresource, mode).Refuses(log_, name)) return Status::InvalidArg;
   if (t.mapped[subresource]) return RefuseMap(name, MsgCode::MapTwice, "it is mapped already; call Unmap first");
   if (Status s = WaitForCopies(&t.gpuTouched); s != Status::Ok) return s;
   const MipLayout m = t.Layout(subresource);
@@ -120,12 +107,18 @@ Status Context::Map(IResource* resource, uint32_t subresource, MapMode mode, Map
 }
 
 void Context::Unmap(IResource* resource, uint32_t subresource) {
-  if (Buffer* b = AsBuffer(resource)) {
-    b->mapped = false;
+  Buffer* b = AsBuffer(resource);
+  Texture* t = AsTexture(resource);
+  const bool known = t && subresource < t->mapped.size() && t->mapped[subresource];
+  if (b ? !b->mapped : !known) {
+    RefuseMap(b   ? b->Desc().name
+              : t ? t->Desc().name
+                  : "",
+              resource ? MsgCode::MapMode : MsgCode::InvalidDesc, "Unmap of what is not mapped");
     return;
   }
-  Texture* t = AsTexture(resource);
-  if (!t || subresource >= t->mapped.size() || !t->mapped[subresource]) return;
+  if (b) b->mapped = false;
+  if (b) return;
   t->mapped[subresource] = false;
   const MipLayout m = t->Layout(subresource);
   if (t->Desc().format == Format::D24_UNorm_S8_UInt)

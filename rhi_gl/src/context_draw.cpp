@@ -130,16 +130,15 @@ void Context::DrawIndexedInstanced(uint32_t indexCount, uint32_t instanceCount, 
 
 const Buffer* Context::CheckIndirect(IBuffer* args, uint32_t offset, uint32_t size) {
   const auto* buffer = static_cast<const Buffer*>(args);
-  const char* wrong = nullptr;
-  if (!buffer) {
-    wrong = "the argument buffer is null";
-  } else if (!(buffer->Desc().bind & Bind::IndirectArgs)) {
-    wrong = "the argument buffer was made without Bind::IndirectArgs";
-  } else if (offset % 4 != 0 || offset > buffer->Desc().byteWidth || size > buffer->Desc().byteWidth - offset) {
-    wrong = "the arguments lie beyond the buffer's end, or not at a multiple of 4 bytes";
+  if (!buffer || !(buffer->Desc().bind & Bind::IndirectArgs)) {
+    ReportOnce(Severity::Error, MsgCode::WrongBindFlag,
+               "an indirect call is skipped: its arguments need a buffer made with Bind::IndirectArgs");
+    return nullptr;
   }
-  if (!wrong) return buffer;
-  ReportOnce(Severity::Error, MsgCode::OutOfBounds, "an indirect call is skipped: %s", wrong);
+  if (offset % 4 == 0 && uint64_t(offset) + size <= buffer->Desc().byteWidth) return buffer;
+  ReportOnce(Severity::Error, MsgCode::OutOfBounds,
+             "an indirect call is skipped: %u bytes at %u of a buffer of %u; stay within it, at a multiple of 4", size,
+             offset, buffer->Desc().byteWidth);
   return nullptr;
 }
 

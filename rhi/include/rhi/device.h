@@ -147,20 +147,22 @@ class IContext {
   virtual void ClearState() = 0;
 
   // ---- Data. Map: ID3D10Buffer::Map, ID3D10Texture2D::Map / persistently mapped memory / the same. Dynamic buffers:
-  // WriteDiscard, WriteNoOverwrite; staging: Read (waits for the GPU), Write. Others: InvalidArg and MsgCode::MapMode;
-  // mapped already: MapTwice; a subresource that is not there: SubresourceOutOfRange.
+  // WriteDiscard, WriteNoOverwrite; staging: Read (waits for the GPU), Write. Others: InvalidArg and MsgCode::MapMode
+  // (Immutable: ImmutableWrite); mapped already: MapTwice; a subresource that is not there: SubresourceOutOfRange. Unmap
+  // of what is not mapped: MapMode.
   virtual Status Map(IResource*, uint32_t subresource, MapMode, Mapped*) = 0;
   virtual void Unmap(IResource*, uint32_t subresource) = 0;
   // WriteDiscard in one call for a dynamic constant buffer; `size` <= byteWidth bytes, the rest is undefined. Never
   // ends a pass. The buffer need not be bound again. Map + memcpy + Unmap / a slice of the ring and a dynamic offset /
   // a slice of the ring and glBindBufferRange.
   virtual void UpdateConstants(IBuffer*, const void* data, uint32_t size) = 0;
-  // Default usage only (Immutable: ImmutableWrite). Buffers: box in bytes, null for all. Ends a pass.
+  // Default usage only (Immutable: ImmutableWrite, others: MapMode). Buffers: box in bytes, null for all. Ends a pass.
   // UpdateSubresource / a staging slice and vkCmdCopyBuffer(ToImage) / glNamedBufferSubData, glTextureSubImage*.
   virtual void UpdateSubresource(IResource*, uint32_t subresource, const Box*, const void* data, uint32_t rowPitch,
                                  uint32_t slicePitch) = 0;
-  // Whole resources of the same size and format (or sRGB twins), and boxes of them; overlapping boxes of one
-  // subresource are refused. Copy* / vkCmdCopyBuffer, vkCmdCopyImage / glCopyNamedBufferSubData, glCopyImageSubData.
+  // Whole resources of the same size and format (or sRGB twins; else FormatMismatch), and boxes of them (OutOfBounds);
+  // overlapping boxes of one subresource are refused (OutOfBounds). The destination is Default or Staging (Immutable:
+  // ImmutableWrite, Dynamic: MapMode). Copy* / vkCmdCopyBuffer, vkCmdCopyImage / glCopyNamedBufferSubData, glCopyImageSubData.
   // Ends a pass.
   virtual void CopyResource(IResource* dst, IResource* src) = 0;
   virtual void CopySubresourceRegion(IResource* dst, uint32_t dstSubresource, uint32_t x, uint32_t y, uint32_t z,

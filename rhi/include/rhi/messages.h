@@ -36,11 +36,11 @@ enum class MsgCode : uint16_t {
   ConstantsTooSmall = 308,  // a constant buffer holds less than the shader's block
   ViewportOutside = 309,
   // 4xx: data
-  MapMode = 400,
+  MapMode = 400,  // the usage does not allow this way to the data: Map's mode, a copy to a Dynamic resource
   MapTwice = 401,
   OutOfBounds = 402,
   SubresourceOutOfRange = 403,
-  FormatMismatch = 404,
+  FormatMismatch = 404,  // format, size, sample count or kind of two resources differ, or of a resource and the call
   MappedInUse = 405,    // a mapped resource is used by a draw, dispatch or copy
   MapOpen = 406,        // a resource is mapped at EndFrame
   PitchTooSmall = 407,  // rows or slices of the caller's data overlap
