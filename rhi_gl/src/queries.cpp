@@ -177,8 +177,7 @@ void Context::NextSegment(uint32_t target, SegmentPtr next) {
 
 void Context::Begin(IQuery* query) {
   auto* q = static_cast<Query*>(query);
-  Enter();
-  if (!CheckQuery(q, true)) return;
+  if (!Enter() || !CheckQuery(q, true)) return;
   q->state = Query::State::Active;
   if (q->Target() == kQueryTargets) return;
   SegmentPtr segment = q->TakeSegment();
@@ -188,8 +187,7 @@ void Context::Begin(IQuery* query) {
 
 void Context::End(IQuery* query) {
   auto* q = static_cast<Query*>(query);
-  Enter();
-  if (!CheckQuery(q, false)) return;
+  if (!Enter() || !CheckQuery(q, false)) return;
   const uint32_t target = q->Target();
   if (target == kQueryTargets) return q->EndGl();
   q->state = Query::State::Ended;
@@ -200,7 +198,7 @@ void Context::End(IQuery* query) {
 
 Status Context::GetData(IQuery* query, void* data, uint32_t size, bool flush) {
   auto* q = static_cast<Query*>(query);
-  Enter();
+  if (!core_.Alive() || !Enter()) return Status::DeviceLost;
   if (!q || q->state != Query::State::Ended) {
     log_.Report(Severity::Error, MsgCode::QueryOrder, q ? q->Name().c_str() : "",
                 "GetData needs a query that was ended");

@@ -68,6 +68,7 @@ class Buffer final : public Object<IBuffer> {
   bool AllocateFixed(const void* init, GLbitfield flags);
   bool AllocateVersions(const void* init);
   bool AddVersions();
+  bool MakeHome();
 
   CorePtr core_;
   BufferDesc desc_;

@@ -83,7 +83,6 @@ GLenum ToGl(Blend factor) {
 }
 
 SamplerState::SamplerState(const CorePtr& core, const SamplerDesc& desc) : core_(core), desc_(desc) {
-  core->Enter();
   uid = core->NewUid();
   glCreateSamplers(1, &name);
   glSamplerParameteri(name, GL_TEXTURE_WRAP_S, GLint(ToGl(desc.u)));

@@ -28,7 +28,6 @@ Texture::Texture(const CorePtr& core, const TextureDesc& desc) : target(TargetOf
 Status Texture::Create(const CorePtr& core, const TextureDesc& wanted, const SubresourceData* init,
                        Ref<ITexture>* out) {
   TextureDesc desc = wanted;
-  core->Enter();
   if (Status s = CheckTextureDesc(&desc, init, core->caps, core->log); s != Status::Ok) return s;
   if (Status s = CheckFormat(*core, desc); s != Status::Ok) return s;
   auto texture = Ref<Texture>::Adopt(new Texture(core, desc));

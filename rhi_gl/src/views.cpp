@@ -49,7 +49,6 @@ void UseGlView(ViewData& v, bool asArray) {
 template <class V>
 Status MakeTextureView(const CorePtr& core, Texture* texture, const ViewDesc* wanted, Bind need, Ref<V>* out) {
   ViewDesc desc;
-  core->Enter();
   if (Status s = ResolveTextureView(texture->Desc(), wanted, need, &desc, core->log); s != Status::Ok) return s;
   *out = NewView<V>(core, texture, desc);
   V& view = **out;
@@ -66,7 +65,6 @@ Status MakeTextureView(const CorePtr& core, Texture* texture, const ViewDesc* wa
 template <class V>
 Status MakeTargetView(const CorePtr& core, Texture* texture, const ViewDesc* wanted, Bind need, Ref<V>* out) {
   ViewDesc desc;
-  core->Enter();
   if (Status s = ResolveTextureView(texture->Desc(), wanted, need, &desc, core->log); s != Status::Ok) return s;
   *out = NewView<V>(core, texture, desc);
   V& view = **out;

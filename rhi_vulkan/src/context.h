@@ -214,15 +214,12 @@ class Context final : public backend::ContextBase {
   Status MapTexture(Texture&, uint32_t subresource, MapMode, Mapped*);
   Status MapError(MsgCode, const char* object, const char* text);
   // context_upload.cpp
-  bool CheckUpdate(Usage, const char* name);
   void UpdateBuffer(Buffer&, const Box*, const void* data);
   void UpdateTexture(Texture&, uint32_t subresource, const Box*, const SubresourceData&);
   bool Upload(VkCommandBuffer, Texture&, uint32_t subresource, const Box&, const SubresourceData&);
   // context_copy.cpp
   void CopyBuffers(Buffer& dst, uint32_t x, Buffer& src, const Box*);
   void CopyTextures(const TextureRegion& dst, const TextureRegion& src, const Box*);
-  bool CheckCopy(const TextureRegion& dst, const TextureRegion& src, const Box& box);
-  bool CheckCopyDest(Usage, const char* name);
   void CopyImages(const TextureRegion& dst, const TextureRegion& src, const Box& box);
   void CopyImageAndBuffer(const TextureRegion& image, const TextureRegion& staging, const Box& box, bool toImage);
   void CopyStaging(const TextureRegion& dst, const TextureRegion& src, const Box& box);

@@ -176,7 +176,7 @@ class IContext {
   // the contents and wait for the GPU's copies). Else InvalidArg and MapMode, or ImmutableWrite; mapped already:
   // MapTwice; a subresource that is not there: SubresourceOutOfRange (buffers: `subresource` is 0). OutOfMemory: no
   // more ring. *Mapped is valid until Unmap; unmap before the GPU uses it. Pitches in bytes; a buffer's are its
-  // byteWidth.
+  // byteWidth. Unmap of what is not mapped: MapMode.
   virtual Status Map(IResource*, uint32_t subresource, MapMode, Mapped*) = 0;
   virtual void Unmap(IResource*, uint32_t subresource) = 0;
   // WriteDiscard in one call for a dynamic constant buffer (others: MapMode; null: NothingBound); `size` <= byteWidth
@@ -191,8 +191,8 @@ class IContext {
   virtual void UpdateSubresource(IResource*, uint32_t subresource, const Box*, const void* data, uint32_t rowPitch,
                                  uint32_t slicePitch) = 0;
   // Two buffers, or two textures of one format (or sRGB twins) and sample count (FormatMismatch), to Default or Staging
-  // (ImmutableWrite, MapMode). CopyResource: everything, sizes and mips equal. CopySubresourceRegion: a box of the
-  // source (null: all) to x, y, z of the destination, in texels, whole 4x4 blocks of BC formats; buffers: bytes, in x
+  // (ImmutableWrite, MapMode). CopyResource: everything, sizes and mips equal (FormatMismatch). CopySubresourceRegion: a
+  // box of the source (null: all) to x, y, z of the destination, in texels, whole 4x4 blocks of BC formats; buffers: bytes, in x
   // and the box's left and right. Slices of arrays, faces of cubes and depth slices of volumes may be mixed. Beyond an
   // edge, or onto itself (one subresource of a texture, overlapping bytes of a buffer): OutOfBounds; no such
   // subresource: SubresourceOutOfRange. Ends a pass. Copy* / vkCmdCopyBuffer, vkCmdCopyImage /
@@ -357,7 +357,8 @@ class IDevice : public IObject {
   // InvalidArg and NoVertexShader.
   virtual Status PrecachePipeline(const PipelineKeyDesc&) = 0;
   // The size of the blob in bytes; copies it if `capacity` suffices (null, 0: only the size). 0 where the driver has
-  // none (Caps::pipelineCacheBlob), or no pipeline yet. - / vkGetPipelineCacheData / -. For DeviceDesc::pipelineCache; a blob of another
+  // none (Caps::pipelineCacheBlob), or no pipeline yet. - / vkGetPipelineCacheData / -. For DeviceDesc::pipelineCache; a
+  // blob of another
   // driver, or a damaged one, is ignored
   // (PipelineCacheRefused).
   virtual size_t GetPipelineCacheBlob(void* out, size_t capacity) = 0;

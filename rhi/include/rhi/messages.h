@@ -42,7 +42,7 @@ enum class MsgCode : uint16_t {
   MapTwice = 401,
   OutOfBounds = 402,            // bytes, elements, boxes, sizes of results
   SubresourceOutOfRange = 403,  // also of views
-  FormatMismatch = 404,         // formats, sample counts or kinds of resources that do not go together
+  FormatMismatch = 404,         // formats, sizes, sample counts or kinds of resources that do not go together
   MappedInUse = 405,            // [v] a mapped resource is used by a draw, dispatch or copy
   MapOpen = 406,                // [v] a resource is mapped at EndFrame
   PitchTooSmall = 407,          // [v] rows or slices of the caller's data overlap
