@@ -3,8 +3,8 @@
 # thread (callgrind; 10,000 one-pixel triangles, 32 bytes of constants each; recording and submission), and the time of a
 # frame. Instructions are exact enough to gate; times are only reported.
 # Usage: tools/measure_overhead.sh [--gate] [PROGRAM]
-#   --gate   only the switch every 100 draws, no times; exit 1 when the RHI needs more than 1.05 times the
-#            instructions
+#   --gate   no times; exit 1 when the RHI needs more than 1.05 times the instructions with a switch every 100 draws, or
+#            on GL more than 1.10 times with one at every draw
 set -euo pipefail
 gate=0
 if [ "${1:-}" = --gate ]; then
@@ -12,7 +12,9 @@ if [ "${1:-}" = --gate ]; then
   shift
 fi
 program="${1:-$(dirname "${BASH_SOURCE[0]}")/../build/release/bin/rhi_overhead}"
-limit=1.05
+limit_every_100=1.05
+limit_every_draw=1.10
+no_limit=99  # Vulkan's driver allocates at each switch, and malloc's share swings with what its threads freed meanwhile
 rounds=5
 modes="raw-vulkan rhi-vulkan raw-gl rhi-gl"
 
@@ -37,10 +39,8 @@ run() {
 
 # count MODE: instructions of one frame in each of the two measured functions, by the thread that calls them.
 count() {
-  local only=()
-  [ "$gate" = 0 ] || only=(every-100)
   if ! run "$1" valgrind --tool=callgrind --separate-threads=yes --toggle-collect=rhi_overhead_every_100 \
-    --toggle-collect=rhi_overhead_every_draw --callgrind-out-file="$scratch/$1" "$program" "$1" 1 "${only[@]}" \
+    --toggle-collect=rhi_overhead_every_draw --callgrind-out-file="$scratch/$1" "$program" "$1" 1 \
     >"$scratch/$1.log" 2>&1; then
     echo "measure_overhead: $1 failed under valgrind:" >&2
     tail -n 20 "$scratch/$1.log" >&2
@@ -56,15 +56,14 @@ instructions() {
 }
 
 over=0
-# row API WHAT FUNCTION
+# row API WHAT FUNCTION LIMIT
 row() {
   local raw rhi
   raw="$(instructions "raw-$1" "$3")"
   rhi="$(instructions "rhi-$1" "$3")"
   awk -v api="$1" -v what="$2" -v raw="$raw" -v rhi="$rhi" \
     'BEGIN { printf "%-7s %-22s %9.0f %9.0f %7.3f\n", api, what, raw, rhi, rhi / raw }'
-  [ "$2" = "every 100 draws" ] || return 0
-  if awk -v raw="$raw" -v rhi="$rhi" -v limit="$limit" 'BEGIN { exit !(rhi > raw * limit) }'; then over=1; fi
+  if awk -v raw="$raw" -v rhi="$rhi" -v limit="$4" 'BEGIN { exit !(rhi > raw * limit) }'; then over=1; fi
 }
 
 # Two at a time: counting is not disturbed by company.
@@ -80,8 +79,10 @@ wait "$second"
 echo "instructions for each draw on the calling thread"
 printf '%-7s %-22s %9s %9s %7s\n' API switch raw rhi ratio
 for api in vulkan gl; do
-  row $api "every 100 draws" rhi_overhead_every_100
-  [ "$gate" = 1 ] || row $api "every draw" rhi_overhead_every_draw
+  row $api "every 100 draws" rhi_overhead_every_100 "$limit_every_100"
+  limit=$limit_every_draw
+  [ $api = gl ] || limit=$no_limit
+  row $api "every draw" rhi_overhead_every_draw "$limit"
 done
 
 # Both ways must have drawn the same.
@@ -110,6 +111,7 @@ if [ "$gate" = 0 ]; then
 fi
 
 if [ "$over" = 1 ]; then
-  echo "measure_overhead: the RHI needs more than $limit times the instructions of the loop by hand" >&2
+  echo "measure_overhead: the RHI needs more than $limit_every_100 (a switch at every draw: $limit_every_draw) times the" \
+    "instructions of the loop by hand" >&2
   [ "$gate" = 0 ] || exit 1
 fi

@@ -37,6 +37,7 @@ Status CheckTextureSamples(const TextureDesc& d, const Caps& caps, const Message
   if (d.dim != TextureDim::Tex2DMS)
     return d.sampleCount == 1 ? Status::Ok : Invalid(log, d.name, "sampleCount above 1 needs dim Tex2DMS");
   if (d.mipLevels != 1) return Invalid(log, d.name, "a Tex2DMS has exactly one mip level");
+  if (d.sampleCount < 2) return Invalid(log, d.name, "a Tex2DMS has at least 2 samples; use Tex2D for one");
   if (SampleCountOk(d.sampleCount, caps)) return Status::Ok;
   log.Report(Severity::Error, MsgCode::CapMissing, d.name, "%u samples are not available; this adapter has up to %u, powers of two",
              d.sampleCount, caps.maxColorSamples);
@@ -51,13 +52,32 @@ Status CheckTextureUse(const TextureDesc& d, const SubresourceData* init, const 
   if ((d.bind & Bind::DepthStencil) && !depth) return Invalid(log, d.name, "Bind::DepthStencil needs a depth format");
   if ((d.bind & Bind::RenderTarget) && (depth || format.blockSize > 1))
     return Invalid(log, d.name, "Bind::RenderTarget needs a colour format that is not block-compressed");
+  if (depth && d.dim == TextureDim::Tex3D) return Invalid(log, d.name, "a Tex3D cannot have a depth format");
+  if ((d.bind & Bind::UnorderedAccess) && d.dim == TextureDim::Tex2DMS)
+    return Invalid(log, d.name, "a Tex2DMS cannot have Bind::UnorderedAccess");
+  if (d.bind & (Bind::VertexBuffer | Bind::IndexBuffer | Bind::ConstantBuffer | Bind::IndirectArgs))
+    return Invalid(log, d.name, "a texture cannot have Bind flags of buffers");
   if (d.usage == Usage::Immutable && !init)
     return Invalid(log, d.name, "an Immutable texture needs its data at creation");
+  if (d.usage == Usage::Immutable && d.bind != Bind::ShaderResource)
+    return Invalid(log, d.name, "an Immutable texture is only read: its Bind flag is ShaderResource");
   if (d.usage == Usage::Staging && d.bind != Bind::None)
     return Invalid(log, d.name, "a Staging texture cannot be bound; set bind to None");
   if (d.usage == Usage::Dynamic)
     return Invalid(log, d.name, "Dynamic textures are not offered; use Default and UpdateSubresource, or a Staging copy");
   if (init && d.dim == TextureDim::Tex2DMS) return Invalid(log, d.name, "a multisampled texture cannot be given data");
+  if (init && format.stencil)
+    return Invalid(log, d.name, "a texture with stencil cannot be given data; render or clear it");
+  if (d.usage == Usage::Staging && (format.stencil || d.dim == TextureDim::Tex2DMS))
+    return Refuse(log, Status::Unsupported, MsgCode::CapMissing, d.name,
+                  "staging textures hold neither stencil nor samples; read depth-stencil back with ReadBack");
+  return Status::Ok;
+}
+
+Status CheckTextureData(const TextureDesc& d, const SubresourceData* init, const MessageLog& log) {
+  for (uint32_t i = 0; init && i < d.mipLevels * SliceCount(d); ++i) {
+    if (!init[i].data) return Invalid(log, d.name, "initial data must be given for every subresource");
+  }
   return Status::Ok;
 }
 
@@ -88,8 +108,10 @@ Status CheckBufferDesc(const BufferDesc& d, const void* init, const Caps& caps, 
     return Invalid(log, d.name, "Bind::ConstantBuffer cannot be combined with other flags");
   if ((d.bind & Bind::ConstantBuffer) && d.byteWidth > kMaxConstantBufferBytes)
     return Invalid(log, d.name, "a constant buffer holds at most 16384 bytes");
-  if (d.usage == Usage::Dynamic && (d.bind & Bind::UnorderedAccess))
-    return Invalid(log, d.name, "a Dynamic buffer cannot have Bind::UnorderedAccess; use Default");
+  if (d.bind & (Bind::RenderTarget | Bind::DepthStencil))
+    return Invalid(log, d.name, "a buffer cannot be a target; RenderTarget and DepthStencil are flags of textures");
+  if (d.usage != Usage::Default && (d.bind & Bind::UnorderedAccess))
+    return Invalid(log, d.name, "only a Default buffer can have Bind::UnorderedAccess: the others are not the GPU's to write");
   if (d.structureStride != 0 && (d.structureStride % 4 != 0 || d.byteWidth % d.structureStride != 0))
     return Invalid(log, d.name, "structureStride must be a multiple of 4 that divides byteWidth");
   const bool structured = (d.bind & Bind::ShaderResource) || (d.bind & Bind::UnorderedAccess);
@@ -106,7 +128,8 @@ Status CheckTextureDesc(TextureDesc* d, const SubresourceData* init, const Caps&
   const uint32_t full = FullMipCount(d->width, d->height, d->dim == TextureDim::Tex3D ? d->depthOrArray : 1);
   if (d->mipLevels == 0) d->mipLevels = full;
   if (d->mipLevels > full) return Invalid(log, d->name, "mipLevels exceeds the full chain");
-  return CheckTextureSamples(*d, caps, log);
+  if (Status s = CheckTextureSamples(*d, caps, log); s != Status::Ok) return s;
+  return CheckTextureData(*d, init, log);
 }
 
 Status CheckSwapChainDesc(const SwapChainDesc& d, const Caps& caps, const MessageLog& log) {
@@ -143,7 +166,8 @@ TextureDesc BackBufferDesc(uint32_t width, uint32_t height, Format format) {
 Status ResolveTextureView(const TextureDesc& d, const ViewDesc* in, Bind need, ViewDesc* out, const MessageLog& log) {
   ViewDesc v = in ? *in : ViewDesc{};
   const uint32_t slices = SliceCount(d);
-  const bool target = need == Bind::RenderTarget || need == Bind::DepthStencil;
+  // A view that is written shows one mip.
+  const bool oneMip = need != Bind::ShaderResource;
   if (!(d.bind & need))
     return Refuse(log, Status::InvalidArg, MsgCode::WrongBindFlag, d.name, "the texture was made without the Bind flag of this view");
   if (v.format == Format::Unknown) v.format = d.format;
@@ -151,11 +175,13 @@ Status ResolveTextureView(const TextureDesc& d, const ViewDesc* in, Bind need, V
   if (!twins) return Refuse(log, Status::InvalidArg, MsgCode::FormatMismatch, d.name, "a view's format must be the texture's own or its sRGB twin");
   if (v.firstMip >= d.mipLevels || v.firstSlice >= slices)
     return Refuse(log, Status::InvalidArg, MsgCode::SubresourceOutOfRange, d.name, "the view starts beyond the last mip or slice");
-  if (v.mipCount == kAllMips) v.mipCount = target ? 1 : d.mipLevels - v.firstMip;
+  if (v.mipCount == kAllMips) v.mipCount = oneMip ? 1 : d.mipLevels - v.firstMip;
   if (v.sliceCount == kAllSlices) v.sliceCount = slices - v.firstSlice;
   if (v.mipCount == 0 || v.sliceCount == 0 || v.mipCount > d.mipLevels - v.firstMip || v.sliceCount > slices - v.firstSlice)
     return Refuse(log, Status::InvalidArg, MsgCode::SubresourceOutOfRange, d.name, "the view reaches beyond the last mip or slice, or is empty");
-  if (target && v.mipCount != 1) return Invalid(log, d.name, "a target's view shows exactly one mip");
+  if (oneMip && v.mipCount != 1) return Invalid(log, d.name, "a view of a target or a u register shows exactly one mip");
+  if (need == Bind::UnorderedAccess && GetFormatInfo(v.format).sRGB)
+    return Refuse(log, Status::Unsupported, MsgCode::CapMissing, d.name, "an _sRGB format has no unordered access; view it as its UNorm twin");
   *out = v;
   return Status::Ok;
 }

@@ -5,6 +5,14 @@
 namespace rhi::backend {
 namespace {
 
+// As bits, so that a NaN equals itself; two words, because a call of memcmp costs more than the comparison.
+bool SameFactors(const float* a, const float* b) {
+  uint64_t x[2], y[2];
+  std::memcpy(x, a, sizeof x);
+  std::memcpy(y, b, sizeof y);
+  return x[0] == y[0] && x[1] == y[1];
+}
+
 bool RangesOverlap(uint32_t firstA, uint32_t countA, uint32_t firstB, uint32_t countB) {
   return firstA < firstB + countB && firstB < firstA + countA;
 }
@@ -18,14 +26,15 @@ bool ViewsOverlap(const IView& a, const IView& b) {
          RangesOverlap(x.firstSlice, x.sliceCount, y.firstSlice, y.sliceCount);
 }
 
+// The release of what was bound comes last, so that it can be a jump.
 template <class T>
-bool ContextBase::Replace(Ref<T>& slot, T* value) {
+void ContextBase::Replace(Ref<T>& slot, T* value, uint32_t dirty) {
   if (slot.get() == value) {
     ++stats_.redundantSets;
-    return false;
+    return;
   }
+  dirty_ |= dirty;
   slot = Ref<T>(value);
-  return true;
 }
 
 bool ContextBase::CheckSlots(const char* what, uint32_t first, uint32_t count, uint32_t limit) {
@@ -36,7 +45,7 @@ bool ContextBase::CheckSlots(const char* what, uint32_t first, uint32_t count, u
 }
 
 void ContextBase::IASetInputLayout(IInputLayout* layout) {
-  if (Replace(state_.layout, layout)) dirty_ |= DirtyLayout;
+  Replace(state_.layout, layout, DirtyLayout);
 }
 
 void ContextBase::IASetPrimitiveTopology(PrimitiveTopology topology) {
@@ -84,14 +93,13 @@ void ContextBase::SetShader(Stage stage, IShader* shader) {
                 ToString(shader->GetStage()), ToString(stage));
     return;
   }
-  if (Replace(state_.shaders[size_t(stage)], shader))
-    dirty_ |= stage == Stage::Compute ? DirtyComputeShader : DirtyShaders;
+  Replace(state_.shaders[size_t(stage)], shader, stage == Stage::Compute ? DirtyComputeShader : DirtyShaders);
 }
 
 void ContextBase::SetConstantBuffers(uint32_t first, uint32_t count, IBuffer* const* buffers) {
   if (!CheckSlots("SetConstantBuffers", first, count, kMaxConstantBuffers)) return;
   for (uint32_t i = 0; i < count; ++i)
-    if (Replace(state_.constants[first + i], buffers[i])) dirty_ |= DirtyConstants;
+    Replace(state_.constants[first + i], buffers[i], DirtyConstants);
 }
 
 bool ContextBase::BoundAsTarget(const IView& input) const {
@@ -110,26 +118,26 @@ void ContextBase::SetShaderResources(Stage stage, uint32_t first, uint32_t count
                   first + i);
       view = nullptr;
     }
-    if (Replace(state_.resources[size_t(stage)][first + i], view)) dirty_ |= DirtyResources << uint32_t(stage);
+    Replace(state_.resources[size_t(stage)][first + i], view, DirtyResources << uint32_t(stage));
   }
 }
 
 void ContextBase::SetSamplers(Stage stage, uint32_t first, uint32_t count, ISamplerState* const* samplers) {
   if (!CheckSlots("SetSamplers", first, count, kMaxSamplers)) return;
   for (uint32_t i = 0; i < count; ++i)
-    if (Replace(state_.samplers[size_t(stage)][first + i], samplers[i])) dirty_ |= DirtySamplers << uint32_t(stage);
+    Replace(state_.samplers[size_t(stage)][first + i], samplers[i], DirtySamplers << uint32_t(stage));
 }
 
 void ContextBase::CSSetUnorderedAccessViews(uint32_t first, uint32_t count, IUnorderedAccessView* const* views) {
   if (!CheckSlots("CSSetUnorderedAccessViews", first, count, kMaxUnorderedAccess)) return;
   for (uint32_t i = 0; i < count; ++i) {
     if (views[i]) UnbindInputsOf(*views[i]);
-    if (Replace(state_.uavs[first + i], views[i])) dirty_ |= DirtyUavs;
+    Replace(state_.uavs[first + i], views[i], DirtyUavs);
   }
 }
 
 void ContextBase::RSSetState(IRasterizerState* raster) {
-  if (Replace(state_.raster, raster)) dirty_ |= DirtyRaster;
+  Replace(state_.raster, raster, DirtyRaster);
 }
 
 void ContextBase::RSSetViewports(uint32_t count, const Viewport* viewports) {
@@ -147,20 +155,22 @@ void ContextBase::RSSetScissorRects(uint32_t count, const Rect* rects) {
 }
 
 void ContextBase::OMSetBlendState(IBlendState* blend, const float factor[4], uint32_t sampleMask) {
-  if (Replace(state_.blend, blend)) dirty_ |= DirtyBlend;
   constexpr float kOnes[4] = {1, 1, 1, 1};
   if (!factor) factor = kOnes;
-  if (std::memcmp(factor, state_.blendFactor.data(), sizeof kOnes) == 0 && sampleMask == state_.sampleMask) return;
-  std::copy(factor, factor + 4, state_.blendFactor.begin());
-  state_.sampleMask = sampleMask;
-  dirty_ |= DirtyBlendFactor;
+  if (!SameFactors(factor, state_.blendFactor.data()) || sampleMask != state_.sampleMask) {
+    std::copy(factor, factor + 4, state_.blendFactor.begin());
+    state_.sampleMask = sampleMask;
+    dirty_ |= DirtyBlendFactor;
+  }
+  Replace(state_.blend, blend, DirtyBlend);
 }
 
 void ContextBase::OMSetDepthStencilState(IDepthStencilState* depthStencil, uint32_t stencilRef) {
-  if (Replace(state_.depthStencil, depthStencil)) dirty_ |= DirtyDepthStencil;
-  if (stencilRef == state_.stencilRef) return;
-  state_.stencilRef = stencilRef;
-  dirty_ |= DirtyStencilRef;
+  if (stencilRef != state_.stencilRef) {
+    state_.stencilRef = stencilRef;
+    dirty_ |= DirtyStencilRef;
+  }
+  Replace(state_.depthStencil, depthStencil, DirtyDepthStencil);
 }
 
 void ContextBase::UnbindInputsOf(const IView& target) {

@@ -53,7 +53,7 @@ class Context final : public backend::ContextBase {
     uint32_t subresource, x, y, z;
   };
   Status Refuse(MsgCode, const char* object, const char* text);  // InvalidArg
-  bool CheckWrite(const IResource*, const char* name);
+  bool CheckKinds(IResource* dst, IResource* src);
   void CopyBuffers(Buffer& dst, uint32_t at, const Buffer& src, const Box*);
   void CopyTextures(const Side& dst, const Side& src, const Box*);
 

@@ -2,23 +2,15 @@
 #include <cstring>
 
 #include "null_context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi::null_backend {
 
-using backend::MipLayout;
+using namespace backend;
 
 namespace {
 
 Box Whole(const MipLayout& m) { return {0, 0, 0, m.width, m.height, m.depth}; }
-
-// Within the mip, and on whole blocks.
-bool Fits(const Box& b, const MipLayout& m, Format format) {
-  const uint32_t block = GetFormatInfo(format).blockSize;
-  const auto edge = [block](uint32_t end, uint32_t whole) { return end % block == 0 || end == whole; };
-  return b.left <= b.right && b.top <= b.bottom && b.front <= b.back && b.right <= m.width && b.bottom <= m.height &&
-         b.back <= m.depth && b.left % block == 0 && b.top % block == 0 && edge(b.right, m.width) &&
-         edge(b.bottom, m.height);
-}
 
 struct Rows {  // memory of texels, at the first of them
   std::byte* data;
@@ -76,21 +68,13 @@ Status Context::Map(IResource* resource, uint32_t subresource, MapMode mode, Map
   Buffer* b = AsBuffer(resource);
   Texture* t = AsTexture(resource);
   const char* name = b ? b->Desc().name : t->Desc().name;
-  const bool staging = resource->GetUsage() == Usage::Staging && (mode == MapMode::Read || mode == MapMode::Write);
-  const bool dynamic =
-      resource->GetUsage() == Usage::Dynamic && (mode == MapMode::WriteDiscard || mode == MapMode::WriteNoOverwrite);
-  if (resource->GetUsage() == Usage::Immutable)
-    return Refuse(MsgCode::ImmutableWrite, name, "Map: an Immutable resource cannot be mapped");
-  if (!staging && !dynamic)
-    return Refuse(MsgCode::MapMode, name,
-                  "Map: Dynamic buffers take WriteDiscard and WriteNoOverwrite, Staging resources Read and Write");
-  if (t && subresource >= t->SubresourceCount())
-    return Refuse(MsgCode::SubresourceOutOfRange, name, "Map: the subresource does not exist");
+  const Misuse misuse = b ? CheckMap(b->Desc(), mode) : CheckMap(t->Desc(), subresource, mode);
+  if (misuse.Refuses(log_, name)) return Status::InvalidArg;
   if (b ? b->mapped : bool(t->mapped[subresource]))
     return Refuse(MsgCode::MapTwice, name, "Map: it is mapped already; call Unmap first");
   if (b) {
     b->mapped = true;
-    if (dynamic) stats_.ringBytes += b->bytes.size();
+    if (b->GetUsage() == Usage::Dynamic) stats_.ringBytes += b->bytes.size();
     *out = {b->bytes.data(), b->Desc().byteWidth, b->Desc().byteWidth};
     return Status::Ok;
   }
@@ -100,31 +84,26 @@ Status Context::Map(IResource* resource, uint32_t subresource, MapMode mode, Map
 }
 
 void Context::Unmap(IResource* resource, uint32_t subresource) {
-  if (Buffer* b = AsBuffer(resource)) b->mapped = false;
+  Buffer* b = AsBuffer(resource);
   Texture* t = AsTexture(resource);
-  if (t && subresource < t->SubresourceCount()) t->mapped[subresource] = false;
+  const bool known = t && subresource < t->SubresourceCount() && t->mapped[subresource];
+  if (b ? !b->mapped : !known) {
+    Refuse(resource ? MsgCode::MapMode : MsgCode::InvalidDesc, "", "Unmap of what is not mapped; the call is ignored");
+    return;
+  }
+  if (b) b->mapped = false;
+  if (t) t->mapped[subresource] = false;
 }
 
 // ------------------------------------------------------------------------------------------------------------- updates
 
-bool Context::CheckWrite(const IResource* dst, const char* name) {
-  if (dst->GetUsage() == Usage::Default || dst->GetUsage() == Usage::Staging) return true;
-  Refuse(dst->GetUsage() == Usage::Immutable ? MsgCode::ImmutableWrite : MsgCode::MapMode, name,
-         "the destination's usage must be Default or Staging; the call is ignored");
-  return false;
-}
-
 void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) {
   Buffer* b = AsBuffer(target);
-  const bool constants = b && b->GetUsage() == Usage::Dynamic && (b->Desc().bind & Bind::ConstantBuffer);
-  if (!constants || size > b->bytes.size()) {
-    Refuse(!b          ? MsgCode::NothingBound
-           : constants ? MsgCode::OutOfBounds
-                       : MsgCode::MapMode,
-           b ? b->Desc().name : "",
-           "UpdateConstants needs a Dynamic constant buffer and at most its byteWidth of data; the call is ignored");
+  if (!b) {
+    Refuse(MsgCode::NothingBound, "", "UpdateConstants: the buffer is null; the call is ignored");
     return;
   }
+  if (CheckUpdateConstants(b->Desc(), size).Refuses(log_, b->Desc().name)) return;
   std::memcpy(b->bytes.data(), data, size);
   stats_.ringBytes += size;
 }
@@ -138,23 +117,15 @@ void Context::UpdateSubresource(IResource* dst, uint32_t subresource, const Box*
     return;
   }
   const char* name = b ? b->Desc().name : t->Desc().name;
-  if (!CheckWrite(dst, name)) return;
+  const Misuse misuse =
+      b ? CheckUpdate(b->Desc(), box) : CheckUpdate(t->Desc(), subresource, box, rowPitch, slicePitch);
+  if (misuse.Refuses(log_, name)) return;
   if (b) {
-    const Box range = box ? *box : Box{0, 0, 0, b->Desc().byteWidth, 1, 1};
-    const bool fits = range.left <= range.right && range.right <= b->bytes.size();
-    if (fits) std::memcpy(b->bytes.data() + range.left, data, range.right - range.left);
-    if (!fits) Refuse(MsgCode::OutOfBounds, name, "UpdateSubresource: the box is beyond the buffer");
-    return;
-  }
-  if (subresource >= t->SubresourceCount()) {
-    Refuse(MsgCode::SubresourceOutOfRange, name, "UpdateSubresource: the subresource does not exist");
+    const uint32_t left = box ? box->left : 0, right = box ? box->right : b->Desc().byteWidth;
+    std::memcpy(b->bytes.data() + left, data, right - left);
     return;
   }
   const Box range = box ? *box : Whole(t->Layout(subresource));
-  if (!Fits(range, t->Layout(subresource), t->Desc().format)) {
-    Refuse(MsgCode::OutOfBounds, name, "UpdateSubresource: the box is beyond the subresource, or not on whole blocks");
-    return;
-  }
   const FormatInfo& f = GetFormatInfo(t->Desc().format);
   const uint32_t tight = (range.right - range.left + f.blockSize - 1) / f.blockSize * f.blockBytes;
   const uint64_t row = rowPitch ? rowPitch : tight;
@@ -166,73 +137,59 @@ void Context::UpdateSubresource(IResource* dst, uint32_t subresource, const Box*
 // ------------------------------------------------------------------------------------------------------------- copies
 
 void Context::CopyBuffers(Buffer& dst, uint32_t at, const Buffer& src, const Box* box) {
-  if (!CheckWrite(&dst, dst.Desc().name)) return;
-  const uint64_t left = box ? box->left : 0, right = box ? box->right : src.bytes.size();
-  const bool fits = left <= right && right <= src.bytes.size() && at + (right - left) <= dst.bytes.size();
-  const bool overlaps = &dst == &src && at < right && left < at + (right - left);
-  if (fits && !overlaps)
-    std::memcpy(dst.bytes.data() + at, src.bytes.data() + left, right - left);
-  else
-    Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a copy reaches beyond the end of a buffer, or overlaps itself");
+  const size_t left = box ? box->left : 0, right = box ? box->right : src.bytes.size();
+  std::memcpy(dst.bytes.data() + at, src.bytes.data() + left, right - left);
 }
 
 void Context::CopyTextures(const Side& dst, const Side& src, const Box* box) {
-  const TextureDesc &a = dst.texture.Desc(), &b = src.texture.Desc();
-  if (!CheckWrite(&dst.texture, a.name)) return;
-  if (dst.subresource >= dst.texture.SubresourceCount() || src.subresource >= src.texture.SubresourceCount()) {
-    Refuse(MsgCode::SubresourceOutOfRange, a.name, "a copy of a subresource that does not exist");
-    return;
+  const Box s = box ? *box : Whole(src.texture.Layout(src.subresource));
+  CopyRows(RowsAt(dst.texture, dst.subresource, dst.x, dst.y, dst.z),
+           RowsAt(src.texture, src.subresource, s.left, s.top, s.front), s, dst.texture.Desc().format);
+}
+
+// Null, or a buffer and a texture.
+bool Context::CheckKinds(IResource* dst, IResource* src) {
+  if (!dst || !src) {
+    Refuse(MsgCode::InvalidDesc, "", "a copy of a resource that is null; the call is ignored");
+    return false;
   }
-  if (ToLinear(a.format) != ToLinear(b.format) || a.sampleCount != b.sampleCount) {
-    Refuse(MsgCode::FormatMismatch, a.name, "a copy needs one format, or its sRGB twin, and one sample count");
-    return;
-  }
-  const MipLayout from = src.texture.Layout(src.subresource), to = dst.texture.Layout(dst.subresource);
-  const Box s = box ? *box : Whole(from);
-  const Box d{dst.x, dst.y, dst.z, dst.x + (s.right - s.left), dst.y + (s.bottom - s.top), dst.z + (s.back - s.front)};
-  const bool same = &dst.texture == &src.texture && dst.subresource == src.subresource;
-  if (same || !Fits(s, from, b.format) || !Fits(d, to, a.format)) {
-    Refuse(MsgCode::OutOfBounds, a.name, "a copy reaches beyond a subresource, or lies within one");
-    return;
-  }
-  CopyRows(RowsAt(dst.texture, dst.subresource, d.left, d.top, d.front),
-           RowsAt(src.texture, src.subresource, s.left, s.top, s.front), s, a.format);
+  return !AsBuffer(dst) == !AsBuffer(src) || !CheckCopyKinds(dst->GetUsage()).Refuses(log_, "");
 }
 
 void Context::CopyResource(IResource* dst, IResource* src) {
-  Buffer *toBuffer = AsBuffer(dst), *fromBuffer = AsBuffer(src);
-  Texture *to = AsTexture(dst), *from = AsTexture(src);
-  const bool buffers = toBuffer && fromBuffer && toBuffer->bytes.size() == fromBuffer->bytes.size();
-  if (buffers) return CopyBuffers(*toBuffer, 0, *fromBuffer, nullptr);
-  if (!to || !from || to->Desc().width != from->Desc().width || to->Desc().height != from->Desc().height ||
-      to->Desc().depthOrArray != from->Desc().depthOrArray || to->SubresourceCount() != from->SubresourceCount()) {
-    Refuse(MsgCode::FormatMismatch, "", "CopyResource needs two buffers, or two textures, of one size; it is ignored");
+  if (!CheckKinds(dst, src)) return;
+  if (Buffer* to = AsBuffer(dst)) {
+    const Buffer& from = *AsBuffer(src);
+    if (!CheckCopyAll(to->Desc(), from.Desc(), dst == src).Refuses(log_, to->Desc().name))
+      CopyBuffers(*to, 0, from, nullptr);
     return;
   }
-  for (uint32_t i = 0; i < to->SubresourceCount(); ++i) CopyTextures({*to, i, 0, 0, 0}, {*from, i, 0, 0, 0}, nullptr);
+  Texture &to = *AsTexture(dst), &from = *AsTexture(src);
+  if (CheckCopyAll(to.Desc(), from.Desc(), dst == src).Refuses(log_, to.Desc().name)) return;
+  for (uint32_t i = 0; i < to.SubresourceCount(); ++i) CopyTextures({to, i, 0, 0, 0}, {from, i, 0, 0, 0}, nullptr);
 }
 
 void Context::CopySubresourceRegion(IResource* dst, uint32_t dstSubresource, uint32_t x, uint32_t y, uint32_t z,
                                     IResource* src, uint32_t srcSubresource, const Box* box) {
-  Buffer *toBuffer = AsBuffer(dst), *fromBuffer = AsBuffer(src);
-  if (toBuffer && fromBuffer) return CopyBuffers(*toBuffer, x, *fromBuffer, box);
-  Texture *to = AsTexture(dst), *from = AsTexture(src);
-  if (to && from) return CopyTextures({*to, dstSubresource, x, y, z}, {*from, srcSubresource, 0, 0, 0}, box);
-  Refuse(MsgCode::FormatMismatch, "", "CopySubresourceRegion needs two buffers, or two textures; it is ignored");
+  if (!CheckKinds(dst, src)) return;
+  if (Buffer* to = AsBuffer(dst)) {
+    const Buffer& from = *AsBuffer(src);
+    if (!CheckCopy(to->Desc(), x, from.Desc(), box, dst == src).Refuses(log_, to->Desc().name))
+      CopyBuffers(*to, x, from, box);
+    return;
+  }
+  Texture &to = *AsTexture(dst), &from = *AsTexture(src);
+  const Misuse misuse = CheckCopy({to.Desc(), dstSubresource, x, y, z}, {from.Desc(), srcSubresource}, box, dst == src);
+  if (!misuse.Refuses(log_, to.Desc().name))
+    CopyTextures({to, dstSubresource, x, y, z}, {from, srcSubresource, 0, 0, 0}, box);
 }
 
 void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITexture* src, uint32_t srcSubresource,
-                                 Format) {
-  Texture *to = AsTexture(dst), *from = AsTexture(src);
-  const bool fits = to && from && dstSubresource < to->SubresourceCount() &&
-                    srcSubresource < from->SubresourceCount() && from->Desc().sampleCount > 1 &&
-                    to->Desc().sampleCount == 1 && ToLinear(to->Desc().format) == ToLinear(from->Desc().format) &&
-                    to->texels[dstSubresource].size() == from->texels[srcSubresource].size();
-  if (fits)
-    to->texels[dstSubresource] = from->texels[srcSubresource];
-  else
-    Refuse(MsgCode::FormatMismatch, to ? to->Desc().name : "",
-           "ResolveSubresource needs a multisampled source and a destination of one sample, of one size and format");
+                                 Format format) {
+  if (!CheckKinds(dst, src)) return;
+  Texture &to = *AsTexture(dst), &from = *AsTexture(src);
+  const Misuse misuse = CheckResolve({to.Desc(), dstSubresource}, {from.Desc(), srcSubresource}, format);
+  if (!misuse.Refuses(log_, to.Desc().name)) to.texels[dstSubresource] = from.texels[srcSubresource];
 }
 
 // ----------------------------------------------------------------------------------------------------------- read-back

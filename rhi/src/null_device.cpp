@@ -72,17 +72,17 @@ class Device final : public backend::Object<IDevice> {
   }
   Status CreateShader(const ShaderBlob&, Ref<IShader>*) override;
   Status CreateInputLayout(const InputElement*, uint32_t count, IShader* vs, Ref<IInputLayout>*) override;
-  Status CreateBlendState(const BlendDesc& d, Ref<IBlendState>* out) override { return Intern<BlendState>(d, out); }
+  Status CreateBlendState(const BlendDesc& d, Ref<IBlendState>* out) override {
+    return Intern<BlendState>(backend::CheckBlendDesc(d, core_->caps, core_->log), d, out);
+  }
   Status CreateDepthStencilState(const DepthStencilDesc& d, Ref<IDepthStencilState>* out) override {
-    return Intern<DepthStencilState>(d, out);
+    return Intern<DepthStencilState>(backend::CheckDepthStencilDesc(d, core_->log), d, out);
   }
   Status CreateRasterizerState(const RasterizerDesc& d, Ref<IRasterizerState>* out) override {
-    return Intern<RasterizerState>(d, out);
+    return Intern<RasterizerState>(backend::CheckRasterizerDesc(d, core_->caps, core_->log), d, out);
   }
   Status CreateSamplerState(const SamplerDesc& d, Ref<ISamplerState>* out) override {
-    *out = nullptr;
-    if (d.maxAniso < 1 || d.maxAniso > 16) return Invalid("", "SamplerDesc::maxAniso must be 1 to 16");
-    return Intern<SamplerState>(d, out);
+    return Intern<SamplerState>(backend::CheckSamplerDesc(d, core_->caps, core_->log), d, out);
   }
   Status CreateQuery(const QueryDesc& d, Ref<IQuery>* out) override {
     *out = nullptr;
@@ -130,7 +130,9 @@ class Device final : public backend::Object<IDevice> {
 
   // The living object of an equal descriptor, or a new one.
   template <class S, class D, class Interface>
-  Status Intern(const D& desc, Ref<Interface>* out) {
+  Status Intern(Status checked, const D& desc, Ref<Interface>* out) {
+    *out = nullptr;
+    if (checked != Status::Ok) return checked;
     auto& table = std::get<backend::Interner<D, S>>(core_->states);
     Ref<S> state = table.Find(desc);
     if (!state) {

@@ -125,6 +125,7 @@ const char* ToString(MsgCode code) {
     case MsgCode::LayoutMismatch: return "LayoutMismatch";
     case MsgCode::ImmutableWrite: return "ImmutableWrite";
     case MsgCode::LiveObjects: return "LiveObjects";
+    case MsgCode::PipelineCacheRefused: return "PipelineCacheRefused";
     case MsgCode::TargetStillBoundAsInput: return "TargetStillBoundAsInput";
     case MsgCode::InputStillBoundAsTarget: return "InputStillBoundAsTarget";
     case MsgCode::SlotOutOfRange: return "SlotOutOfRange";

@@ -3,9 +3,12 @@
 
 #include "rhi/backend/checks.h"
 #include "rhi/backend/context_base.h"
+#include "rhi/backend/data_checks.h"
 #include "validation_log.h"
 
 namespace rhi::validation {
+
+using backend::Misuse;
 
 class Context final : public backend::ContextBase {
  public:
@@ -78,14 +81,9 @@ class Context final : public backend::ContextBase {
   struct Range {  // of a direct draw
     uint64_t first = 0, count = 0, firstInstance = 0, instances = 1;
   };
-  struct Place {  // one side of a copy
-    IResource* resource;
-    uint32_t subresource, x, y, z;
-  };
-
   // What several topics use.
+  bool Is(const Misuse&, const IObject*);  // true, and said: the call is ignored
   bool NotNull(const char* call, const void*, const char* what);
-  bool Subresources(const char* call, const IResource&, uint32_t subresource);
   bool NotMapped(const char* call, const IResource*);
   bool IsBuffer(const IObject*);
   const char* Name(const IObject* o) const { return v_.objects.NameOf(o); }
@@ -101,17 +99,9 @@ class Context final : public backend::ContextBase {
   bool ViewportOk(const Viewport&);
 
   bool CheckMap(IResource*, uint32_t subresource, MapMode, const Mapped*);
-  bool CheckMapMode(const IResource&, MapMode);
   bool CheckUpdateConstants(IBuffer*, const void* data, uint32_t size);
-  bool CheckTextureUpdate(const ITexture&, uint32_t subresource, const Box*, uint32_t rowPitch, uint32_t slicePitch);
 
-  bool CheckWritable(const char* call, const IResource&);
   bool CheckPair(const char* call, IResource* dst, IResource* src);
-  bool CheckWholeTextures(const ITexture& dst, const ITexture& src);
-  bool CheckFormats(const char* call, const ITexture& dst, const ITexture& src);
-  bool CheckBufferRegion(const IBuffer& dst, uint32_t x, const IBuffer& src, const Box*);
-  bool CheckTextureRegion(const Place& dst, const Place& src, const Box*);
-  bool CheckResolve(ITexture* dst, uint32_t dstSubresource, ITexture* src, uint32_t srcSubresource, Format);
 
   bool CheckDraw(const char* call, bool indexed);
   bool CheckShaders(const char* call);

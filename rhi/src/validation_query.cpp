@@ -25,11 +25,6 @@ uint32_t ResultSize(QueryType type) {
 bool HasBegin(QueryType type) { return type != QueryType::Event && type != QueryType::Timestamp; }
 bool CountsWork(QueryType type) { return HasBegin(type) && type != QueryType::TimestampDisjoint; }
 
-// The counters of which a backend may have only one at a time (GL).
-uint32_t Counter(QueryType type) {
-  return type == QueryType::OcclusionPredicate ? uint32_t(QueryType::Occlusion) : uint32_t(type);
-}
-
 }  // namespace
 
 bool Context::CheckBegin(IQuery* query) {
@@ -41,13 +36,6 @@ bool Context::CheckBegin(IQuery* query) {
   if (v_.objects.Find(query)->active)
     return v_.Error(MsgCode::QueryOrder, query,
                     "Begin of a query that is begun already; call End first; it is ignored");
-  if (!CountsWork(type)) return true;
-  for (const auto& [object, record] : v_.objects.Records())
-    if (record.active && Counter(static_cast<const IQuery*>(object)->Type()) == Counter(type))
-      return v_.Error(MsgCode::QueryOrder, query,
-                      "Begin while another query of type %s is active; GL has one at a time, so end that first; it is "
-                      "ignored",
-                      ToString(static_cast<const IQuery*>(object)->Type()));
   return true;
 }
 

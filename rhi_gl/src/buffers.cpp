@@ -129,15 +129,23 @@ std::byte* Buffer::Rename() {
   return data = current_.data;
 }
 
-void Buffer::MoveHome() {
-  if (own_ == 0) {
+bool Buffer::MakeHome() {
+  if (own_ != 0) return true;
+  const bool fits = core_->Allocates([&] {
     glCreateBuffers(1, &own_);
     glNamedBufferStorage(own_, range, nullptr, 0);
-    ownUid_ = core_->NewUid();
-    core_->Label(GL_BUFFER, own_, desc_.name);
-  }
-  glCopyNamedBufferSubData(name, own_, offset, 0, range);
-  name = own_;
+  });
+  ownUid_ = core_->NewUid();
+  if (fits) core_->Label(GL_BUFFER, own_, desc_.name);
+  if (!fits) core_->Discard(NameKind::Buffer, std::exchange(own_, 0));
+  return fits;
+}
+
+void Buffer::MoveHome() {
+  const bool kept = MakeHome();
+  if (kept) glCopyNamedBufferSubData(name, own_, offset, 0, range);
+  if (!kept) core_->OutOfMemory(desc_.name, "constant buffer's contents, which read 0 from now on");
+  name = kept ? own_ : core_->zeroBuffer;
   uid = ownUid_;
   offset = 0;
   data = nullptr;

@@ -18,6 +18,7 @@ enum OwnDirty : uint32_t {
   DirtyBarrier = 1u << 24,       // a dispatch wrote: the next reader needs a memory barrier
   DirtyUnusable = 1u << 25,      // the state was refused at the last draw: look again
   DirtyThread = 1u << 26,        // another context may be current on this thread: ask EGL
+  DirtyFirstVertex = 1u << 27,   // block kGlDrawParametersBlock may hold another first vertex than readyFirst_
   DirtyConstantSlot = 1u << 28,  // << slot: the slot's buffer has new contents
 };
 
@@ -82,28 +83,29 @@ class Context final : public backend::ContextBase {
   Status ReadBack(ITexture*, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch);
   Status ReadBack(IBuffer*, uint32_t offset, uint32_t size, void* out);
   Status WaitIdle();
-  bool ShowInWindow(const WindowPicture&);  // false: the window is gone
+  Status ShowInWindow(const WindowPicture&);  // SurfaceLost: the window is gone
   Status Precache(const PipelineKeyDesc&);
   Stats GetStats(bool reset);
 
  private:
   // context_draw.cpp
-  bool Ready(int64_t firstVertex) const;
+  bool Ready(uint32_t firstVertex) const;
   bool Prepare(int64_t firstVertex);
   void PrepareAndDraw(uint32_t vertexCount, uint32_t startVertex);
   bool PrepareIndexed();
   bool ApplyGraphics();
   bool CheckGraphics();
   bool CheckInputs(const Shader& vs, const Shader* gs);
-  void ApplyProgram(const Shader& vs);
+  void ApplyProgram();
   void ApplyVertexArray();
   void ApplyIndexBuffer(VertexArray&);
   void ApplyOutput();
+  void ApplyBlend();
   void SetFirstVertex(int32_t first);
   const void* IndexPointer(uint32_t startIndex) const;
   const Buffer* CheckIndirect(IBuffer* args, uint32_t offset, uint32_t size);
   void BindFirstVertexFrom(const Buffer& args, uint32_t offset);
-  void IndicesFromZero();
+  bool IndicesFromZero();
 
   // context_bind.cpp
   void UnmarkConstants();
@@ -121,10 +123,10 @@ class Context final : public backend::ContextBase {
   bool PrepareDispatch();
   void FinishDispatch();
   void Barrier();
-  void Settle();  // before anything that reads or writes resources outside of draws
+  bool Settle();  // before anything that reads or writes resources outside of draws; false: as Enter
 
   // context_clear.cpp
-  void OpenGates();
+  bool OpenGates();
   struct ClearPlace {
     GLuint framebuffer;
     GLint drawBuffer;
@@ -145,22 +147,21 @@ class Context final : public backend::ContextBase {
                    const Box*);
   void CopyBlock(const CopyPlace& dst, const CopyPlace& src);
   void CopyStaging(const CopyPlace& dst, const CopyPlace& src);
-  bool CheckWritable(IResource*, const char* call);
   void Refuse(MsgCode, const char* name, const char* call, const char* why);
   Status MapBuffer(Buffer&, MapMode, Mapped*);
   Status MapTexture(Texture&, uint32_t subresource, MapMode, Mapped*);
   Status RefuseMap(const char* name, MsgCode, const char* why) const;
   void UpdateElsewhere(Buffer*, const void* data, uint32_t size);
-  void RefuseUpdate(const Buffer*, uint32_t size);
-  void WaitForCopies(bool* touched);
+  Status WaitForCopies(bool* touched);
   void MarkMoved(const Buffer&);
 
   // queries.cpp
-  bool CheckQuery(const Query&, bool begin);
+  bool CheckQuery(const Query*, bool begin);
+  void NextSegment(uint32_t target, SegmentPtr next);
 
   // context_frame.cpp
-  void Enter();
-  void FinishAll();
+  bool Enter();  // false: the call is ignored (Core::Enter)
+  Status FinishAll();
   void AfterFrame();
   // At most once a frame for each code, so that a broken draw of every frame does not drown the rest.
   [[gnu::format(printf, 4, 5)]] void ReportOnce(Severity, MsgCode, const char* format, ...);
@@ -183,9 +184,9 @@ class Context final : public backend::ContextBase {
 
   VertexArray emptyArray_;    // for draws without an input layout
   int64_t firstVertex_ = -1;  // what block kGlDrawParametersBlock holds; -1: unknown
+  uint32_t readyFirst_ = 0;   // the first vertex of the last draw that was prepared
   GLuint indirectFirst_ = 0;  // its buffer for indirect draws
   GLuint scratchIndices_ = 0;
-  uint32_t scratchIndicesUid_ = 0;
   uint64_t scratchIndicesBytes_ = 0;
   std::array<std::array<GLuint, 2>, 5> dummies_{};  // zero textures by TextureDim and integer
   std::array<std::array<uint32_t, 2>, 5> dummyUids_{};
@@ -194,7 +195,8 @@ class Context final : public backend::ContextBase {
 
   uint64_t ringTakenAtReset_ = 0;
   uint32_t eventDepth_ = 0;
-  std::array<Ref<Query>, kQueryTargets> activeQueries_;
+  std::vector<Ref<Query>> activeQueries_;
+  std::array<SegmentPtr, kQueryTargets> runningSegments_;
   std::unordered_map<uint16_t, uint64_t> reported_;  // code -> frame
 };
 

@@ -1,15 +1,17 @@
 // Clears, resolves and mips: what GL does through framebuffers besides drawing.
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_gl {
 
 using namespace backend;
 
 // Direct3D's clears and copies know no scissor, masks or discard. The next draw sets them again.
-void Context::OpenGates() {
-  Settle();
+bool Context::OpenGates() {
+  if (!Settle()) return false;
   gl_.CloseClearGates();
   dirty_ |= DirtyRaster | DirtyBlendFactor;
+  return true;
 }
 
 // The framebuffer that is drawn to where it shows the view, lest another one is bound for nothing.
@@ -26,7 +28,7 @@ Context::ClearPlace Context::PlaceOf(const RenderTargetView& view) {
 void Context::ClearRenderTargetView(IRenderTargetView* target, const float rgba[4]) {
   const auto* view = static_cast<const RenderTargetView*>(target);
   if (!view) return Refuse(MsgCode::InvalidDesc, "", "ClearRenderTargetView", "the view is null");
-  OpenGates();
+  if (!OpenGates()) return;
   const ClearPlace place = PlaceOf(*view);
   gl_.OpenColorMask(uint32_t(place.drawBuffer));
   dirty_ |= DirtyBlend;
@@ -43,7 +45,7 @@ void Context::ClearDepthStencilView(IDepthStencilView* target, bool clearDepth, 
                                     uint8_t stencil) {
   const auto* view = static_cast<const DepthStencilView*>(target);
   if (!view) return Refuse(MsgCode::InvalidDesc, "", "ClearDepthStencilView", "the view is null");
-  OpenGates();
+  if (!OpenGates()) return;
   const bool bound = framebuffer_ && !(dirty_ & DirtyTargets) && state_.depthTarget.get() == view &&
                      framebuffer_->problem == MsgCode::None;
   TargetSet set;
@@ -89,29 +91,16 @@ class FormatView {
   Attachment whole_;
 };
 
-const char* WhyNotResolve(const Texture& dst, uint32_t dstSub, const Texture& src, uint32_t srcSub, Format format) {
-  if (dst.IsStaging() || src.IsStaging()) return "a staging texture cannot be resolved";
-  if (dstSub >= dst.SubresourceCount() || srcSub >= src.SubresourceCount()) return "a subresource does not exist";
-  if (src.Desc().dim != TextureDim::Tex2DMS || dst.Desc().sampleCount != 1)
-    return "the source must be multisampled and the destination not";
-  const MipLayout to = dst.Layout(dstSub), from = src.Layout(srcSub);
-  if (to.width != from.width || to.height != from.height) return "the sizes differ";
-  const Format family = ToLinear(format);
-  if (ToLinear(dst.Desc().format) != family || ToLinear(src.Desc().format) != family)
-    return "source, destination and format must be one format or its sRGB twin";
-  return GetFormatInfo(format).depth ? "depth cannot be resolved, as in Direct3D 10" : nullptr;
-}
-
 }  // namespace
 
 void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITexture* src, uint32_t srcSubresource,
                                  Format format) {
   const Texture *to = AsTexture(dst), *from = AsTexture(src);
   if (!to || !from) return Refuse(MsgCode::InvalidDesc, "", "ResolveSubresource", "a texture is null");
-  if (format == Format::Unknown) format = from->Desc().format;
-  if (const char* why = WhyNotResolve(*to, dstSubresource, *from, srcSubresource, format))
-    return Refuse(MsgCode::FormatMismatch, to->Desc().name, "ResolveSubresource", why);
-  OpenGates();
+  const Misuse misuse = CheckResolve({to->Desc(), dstSubresource}, {from->Desc(), srcSubresource}, format);
+  if (misuse.Refuses(log_, to->Desc().name)) return;
+  format = from->Desc().format;
+  if (!OpenGates()) return;
   const FormatView toView(*to, format), fromView(*from, format);
   const MipLayout m = to->Layout(dstSubresource);
   BlitPair().Blit(fromView.At(0, 0), m.width, m.height,
@@ -122,12 +111,12 @@ void Context::GenerateMips(IShaderResourceView* target) {
   const auto* view = static_cast<const ShaderResourceView*>(target);
   if (!view || !view->texture) return Refuse(MsgCode::InvalidDesc, "", "GenerateMips", "it needs a view of a texture");
   const TextureDesc& desc = view->texture->Desc();
-  const FormatInfo& format = GetFormatInfo(desc.format);
   if (!(desc.bind & Bind::RenderTarget))
     return Refuse(MsgCode::WrongBindFlag, desc.name, "GenerateMips", "the texture needs Bind::RenderTarget");
-  if (format.isInteger || desc.sampleCount > 1)
-    return Refuse(MsgCode::FormatMismatch, desc.name, "GenerateMips", "the format cannot be filtered");
-  OpenGates();
+  if (!(QueryFormatSupport(desc.format, core_.caps) & FormatSupport::MipAutogen))
+    return Refuse(MsgCode::CapMissing, desc.name, "GenerateMips",
+                  "this format has no FormatSupport::MipAutogen on this adapter");
+  if (!OpenGates()) return;
   if (desc.dim == TextureDim::Tex3D) {
     glGenerateTextureMipmap(view->name);  // slices of a Tex3D are filtered too, which a blit cannot
     return;

@@ -10,9 +10,10 @@ void Context::Barrier() {
   dirty_ &= ~uint32_t(DirtyBarrier);
 }
 
-void Context::Settle() {
-  Enter();
+bool Context::Settle() {
+  if (!Enter()) return false;
   if (dirty_ & DirtyBarrier) Barrier();
+  return true;
 }
 
 bool Context::PrepareDispatch() {
@@ -21,7 +22,7 @@ bool Context::PrepareDispatch() {
     ReportOnce(Severity::Error, MsgCode::NothingBound, "a dispatch is skipped: no compute shader is set");
     return false;
   }
-  Settle();
+  if (!Settle()) return false;
   gl_.UseProgram(shader->code->uid, shader->code->computeProgram);
   BindStage(Stage::Compute, *shader);
   BindUavs(*shader);
@@ -45,7 +46,6 @@ void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
 }
 
 void Context::DispatchIndirect(IBuffer* args, uint32_t offset) {
-  Enter();
   const Buffer* buffer = CheckIndirect(args, offset, sizeof(DispatchArgs));
   if (!buffer || !PrepareDispatch()) return;
   gl_.UseDispatchIndirect(buffer->uid, buffer->name);

@@ -1,22 +1,12 @@
 // UpdateSubresource and copies, on the GPU's time line.
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_gl {
 
 using namespace backend;
 
 namespace {
-
-// Copies convert nothing: the formats are one, or twins in sRGB.
-bool SameGroup(Format a, Format b) { return ToLinear(a) == ToLinear(b); }
-
-bool BufferRange(const BufferDesc& desc, const Box* box, uint32_t* begin, uint32_t* size) {
-  const uint32_t from = box ? box->left : 0, to = box ? box->right : desc.byteWidth;
-  if (from >= to || to > desc.byteWidth) return false;
-  *begin = from;
-  *size = to - from;
-  return true;
-}
 
 BufferPlace PlaceInStaging(const Texture& t, uint32_t subresource, const TexelBlock& b) {
   const FormatInfo& f = GetFormatInfo(t.Desc().format);
@@ -27,112 +17,78 @@ BufferPlace PlaceInStaging(const Texture& t, uint32_t subresource, const TexelBl
   return {t.stagingBuffer, offset, m.rowBytes, uint32_t(m.sliceBytes)};
 }
 
-bool BlockAligned(const Texture& t, const TexelBlock& b) {
-  const uint32_t size = GetFormatInfo(t.Desc().format).blockSize;
-  const MipLayout m = GetMipLayout(t.Desc(), b.mip);
-  const auto edge = [&](uint32_t end, uint32_t whole) { return end % size == 0 || end == whole; };
-  return b.x % size == 0 && b.y % size == 0 && edge(b.x + b.width, m.width) && edge(b.y + b.height, m.height);
-}
-
-const char* WhyNotCopy(const Texture& dst, const Texture& src) {
-  if (!SameGroup(dst.Desc().format, src.Desc().format)) return "the formats differ; copies convert nothing";
-  if (dst.Desc().sampleCount != src.Desc().sampleCount) return "the sample counts differ; use ResolveSubresource";
-  return nullptr;
-}
-
-const char* WhyNotCopyAll(const Texture& dst, const Texture& src) {
-  const TextureDesc &a = dst.Desc(), &b = src.Desc();
-  const bool same = a.width == b.width && a.height == b.height && a.depthOrArray == b.depthOrArray &&
-                    a.mipLevels == b.mipLevels && (a.dim == TextureDim::Tex3D) == (b.dim == TextureDim::Tex3D);
-  return same ? WhyNotCopy(dst, src) : "CopyResource needs equal sizes, slices and mips";
-}
-
 }  // namespace
 
 void Context::Refuse(MsgCode code, const char* name, const char* call, const char* why) {
   log_.Report(Severity::Error, code, name, "%s: %s; the call is ignored", call, why);
 }
 
-bool Context::CheckWritable(IResource* dst, const char* call) {
-  if (!dst) {
-    Refuse(MsgCode::InvalidDesc, "", call, "the destination is null");
-    return false;
-  }
-  if (dst->GetUsage() == Usage::Default || dst->GetUsage() == Usage::Staging) return true;
-  const Buffer* b = AsBuffer(dst);
-  Refuse(MsgCode::ImmutableWrite, b ? b->Desc().name : AsTexture(dst)->Desc().name, call,
-         "the destination's usage must be Default or Staging");
-  return false;
-}
-
 // ------------------------------------------------------------------------------------------------- UpdateSubresource
 
 void Context::UpdateSubresource(IResource* dst, uint32_t subresource, const Box* box, const void* data,
                                 uint32_t rowPitch, uint32_t slicePitch) {
-  if (!CheckWritable(dst, "UpdateSubresource")) return;
-  if (dst->GetUsage() == Usage::Staging || !data)
-    return Refuse(MsgCode::MapMode, "", "UpdateSubresource", "it needs Default usage and data; map staging resources");
-  Settle();
+  if (!dst || !data) return Refuse(MsgCode::InvalidDesc, "", "UpdateSubresource", "the resource or the data is null");
   if (Buffer* b = AsBuffer(dst)) {
-    UpdateBuffer(*b, box, data);
-  } else {
-    UpdateTexture(*AsTexture(dst), subresource, box, data, rowPitch, slicePitch);
+    if (!CheckUpdate(b->Desc(), box).Refuses(log_, b->Desc().name)) UpdateBuffer(*b, box, data);
+    return;
   }
+  Texture& t = *AsTexture(dst);
+  if (!CheckUpdate(t.Desc(), subresource, box, rowPitch, slicePitch).Refuses(log_, t.Desc().name))
+    UpdateTexture(t, subresource, box, data, rowPitch, slicePitch);
 }
 
 void Context::UpdateBuffer(Buffer& b, const Box* box, const void* data) {
-  uint32_t begin = 0, size = 0;
-  if (!BufferRange(b.Desc(), box, &begin, &size))
-    return Refuse(MsgCode::OutOfBounds, b.Desc().name, "UpdateSubresource", "the box is empty or beyond the buffer");
-  glNamedBufferSubData(b.name, begin, size, data);
+  const uint32_t begin = box ? box->left : 0, size = (box ? box->right : b.Desc().byteWidth) - begin;
+  if (size != 0 && Settle()) glNamedBufferSubData(b.name, begin, size, data);
 }
 
 void Context::UpdateTexture(Texture& t, uint32_t subresource, const Box* box, const void* data, uint32_t rowPitch,
                             uint32_t slicePitch) {
-  TexelBlock block;
-  if (subresource >= t.SubresourceCount() || t.Desc().dim == TextureDim::Tex2DMS)
-    return Refuse(MsgCode::SubresourceOutOfRange, t.Desc().name, "UpdateSubresource",
-                  "the subresource does not exist, or is multisampled");
-  if (!MakeBlock(t.Desc(), t.MipOf(subresource), t.SliceOf(subresource), box, &block) || !BlockAligned(t, block))
-    return Refuse(MsgCode::OutOfBounds, t.Desc().name, "UpdateSubresource",
-                  "the box is empty, beyond the subresource, or not on whole blocks");
-  Upload(t, block, data, rowPitch, slicePitch);
+  TexelBlock block;  // none: the box is empty
+  if (MakeBlock(t.Desc(), t.MipOf(subresource), t.SliceOf(subresource), box, &block) && Settle())
+    Upload(t, block, data, rowPitch, slicePitch);
 }
 
 // ------------------------------------------------------------------------------------------------------------ copies
 
 void Context::CopyResource(IResource* dst, IResource* src) {
-  if (!CheckWritable(dst, "CopyResource")) return;
+  if (!dst || !src) return Refuse(MsgCode::InvalidDesc, "", "CopyResource", "a resource is null");
   Buffer *toBuffer = AsBuffer(dst), *fromBuffer = AsBuffer(src);
-  if (toBuffer && fromBuffer) {
-    if (toBuffer->Desc().byteWidth != fromBuffer->Desc().byteWidth)
-      return Refuse(MsgCode::OutOfBounds, toBuffer->Desc().name, "CopyResource", "the buffers' sizes differ");
-    return CopyBuffer(*toBuffer, 0, *fromBuffer, nullptr);
+  if (!toBuffer != !fromBuffer) {
+    CheckCopyKinds(dst->GetUsage()).Refuses(log_, "");
+    return;
   }
-  Texture *to = AsTexture(dst), *from = AsTexture(src);
-  const char* why = to && from ? WhyNotCopyAll(*to, *from) : "both must be buffers, or both textures";
-  if (why) return Refuse(MsgCode::FormatMismatch, "", "CopyResource", why);
-  for (uint32_t i = 0; i < to->SubresourceCount(); ++i) CopyTexture(*to, i, 0, 0, 0, *from, i, nullptr);
+  if (toBuffer) {
+    if (!CheckCopyAll(toBuffer->Desc(), fromBuffer->Desc(), dst == src).Refuses(log_, toBuffer->Desc().name))
+      CopyBuffer(*toBuffer, 0, *fromBuffer, nullptr);
+    return;
+  }
+  Texture &to = *AsTexture(dst), &from = *AsTexture(src);
+  if (CheckCopyAll(to.Desc(), from.Desc(), dst == src).Refuses(log_, to.Desc().name)) return;
+  for (uint32_t i = 0; i < to.SubresourceCount(); ++i) CopyTexture(to, i, 0, 0, 0, from, i, nullptr);
 }
 
 void Context::CopySubresourceRegion(IResource* dst, uint32_t dstSubresource, uint32_t x, uint32_t y, uint32_t z,
                                     IResource* src, uint32_t srcSubresource, const Box* box) {
-  if (!CheckWritable(dst, "CopySubresourceRegion")) return;
+  if (!dst || !src) return Refuse(MsgCode::InvalidDesc, "", "CopySubresourceRegion", "a resource is null");
   Buffer *toBuffer = AsBuffer(dst), *fromBuffer = AsBuffer(src);
-  if (toBuffer && fromBuffer) return CopyBuffer(*toBuffer, x, *fromBuffer, box);
-  Texture *to = AsTexture(dst), *from = AsTexture(src);
-  const char* why = to && from ? WhyNotCopy(*to, *from) : "both must be buffers, or both textures";
-  if (why) return Refuse(MsgCode::FormatMismatch, "", "CopySubresourceRegion", why);
-  CopyTexture(*to, dstSubresource, x, y, z, *from, srcSubresource, box);
+  if (!toBuffer != !fromBuffer) {
+    CheckCopyKinds(dst->GetUsage()).Refuses(log_, "");
+    return;
+  }
+  if (toBuffer) {
+    if (!CheckCopy(toBuffer->Desc(), x, fromBuffer->Desc(), box, dst == src).Refuses(log_, toBuffer->Desc().name))
+      CopyBuffer(*toBuffer, x, *fromBuffer, box);
+    return;
+  }
+  Texture &to = *AsTexture(dst), &from = *AsTexture(src);
+  const Misuse misuse = CheckCopy({to.Desc(), dstSubresource, x, y, z}, {from.Desc(), srcSubresource}, box, dst == src);
+  if (!misuse.Refuses(log_, to.Desc().name)) CopyTexture(to, dstSubresource, x, y, z, from, srcSubresource, box);
 }
 
 void Context::CopyBuffer(Buffer& dst, uint32_t at, Buffer& src, const Box* box) {
-  uint32_t begin = 0, size = 0;
-  if (!BufferRange(src.Desc(), box, &begin, &size) || at > dst.Desc().byteWidth || size > dst.Desc().byteWidth - at)
-    return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a buffer copy", "the range is empty or beyond a buffer");
-  if (&dst == &src && begin < at + size && at < begin + size)
-    return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a buffer copy", "the ranges overlap");
-  Settle();
+  const uint32_t begin = box ? box->left : 0, size = (box ? box->right : src.Desc().byteWidth) - begin;
+  if (size == 0 || !Settle()) return;
   glCopyNamedBufferSubData(src.name, dst.name, GLintptr(uint64_t(src.offset) + begin),
                            GLintptr(uint64_t(dst.offset) + at), size);
   dst.gpuTouched = src.gpuTouched = true;
@@ -140,21 +96,12 @@ void Context::CopyBuffer(Buffer& dst, uint32_t at, Buffer& src, const Box* box) 
 
 void Context::CopyTexture(Texture& dst, uint32_t dstSub, uint32_t x, uint32_t y, uint32_t z, Texture& src,
                           uint32_t srcSub, const Box* box) {
-  if (dstSub >= dst.SubresourceCount() || srcSub >= src.SubresourceCount())
-    return Refuse(MsgCode::SubresourceOutOfRange, dst.Desc().name, "a texture copy", "a subresource does not exist");
   CopyPlace from{&src, srcSub, {}}, to{&dst, dstSub, {}};
-  bool fits = MakeBlock(src.Desc(), src.MipOf(srcSub), src.SliceOf(srcSub), box, &from.block);
+  if (!MakeBlock(src.Desc(), src.MipOf(srcSub), src.SliceOf(srcSub), box, &from.block)) return;  // nothing in it
   const TexelBlock& b = from.block;
   const Box target{x, y, z, x + b.width, y + b.height, z + b.depth};
-  fits = fits && MakeBlock(dst.Desc(), dst.MipOf(dstSub), dst.SliceOf(dstSub), &target, &to.block);
-  if (!fits || !BlockAligned(src, from.block) || !BlockAligned(dst, to.block))
-    return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a texture copy",
-                  "a box is empty, beyond its subresource, or not on whole blocks");
-  if (&dst == &src && dstSub == srcSub)
-    return Refuse(MsgCode::OutOfBounds, dst.Desc().name, "a texture copy",
-                  "source and destination are one subresource");
-  Settle();
-  CopyBlock(to, from);
+  if (MakeBlock(dst.Desc(), dst.MipOf(dstSub), dst.SliceOf(dstSub), &target, &to.block) && Settle())
+    CopyBlock(to, from);
 }
 
 void Context::CopyBlock(const CopyPlace& dst, const CopyPlace& src) {

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_gl {
 
@@ -10,14 +11,15 @@ using namespace backend;
 
 namespace {
 
-// `size` is one register or more. Cheaper than memcpy for as few as constants are.
+// `size` is one register or more. Cheaper than memcpy for as few as constants are, and from the back, where the end of
+// the loop needs no comparison of its own.
 inline void CopyRegisters(std::byte* to, const void* from, uint32_t size) {
   const auto* source = static_cast<const std::byte*>(from);
-  uint64_t at = 0;
+  uint64_t at = size;
   do {
+    at -= kRegisterBytes;
     std::memcpy(to + at, source + at, kRegisterBytes);
-    at += kRegisterBytes;
-  } while (at != size);
+  } while (at != 0);
 }
 
 }  // namespace
@@ -35,22 +37,15 @@ void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) 
 
 // Whatever is not as it was at the last update: the size, the page, the current context; and mistakes.
 void Context::UpdateElsewhere(Buffer* buffer, const void* data, uint32_t size) {
-  if (!buffer || !buffer->IsRingConstant() || size > buffer->Desc().byteWidth) return RefuseUpdate(buffer, size);
-  Enter();
-  std::byte* slice = ring_.Rename(*buffer);
+  if (!buffer) return Refuse(MsgCode::NothingBound, "", "UpdateConstants", "the buffer is null");
+  if (CheckUpdateConstants(buffer->Desc(), size).Refuses(log_, buffer->Desc().name)) return;
+  std::byte* slice = Enter() ? ring_.Rename(*buffer) : nullptr;
   if (!slice) return;
   std::memcpy(slice, data, size);
   dirty_ |= buffer->boundSlots * DirtyConstantSlot;
   if (size == 0 || size % kRegisterBytes != 0 || !std::has_single_bit(buffer->boundSlots)) return;
   buffer->quickSize = size;
   buffer->quickSlot = uint32_t(std::countr_zero(buffer->boundSlots));
-}
-
-void Context::RefuseUpdate(const Buffer* buffer, uint32_t size) {
-  if (!buffer) return Refuse(MsgCode::NothingBound, "", "UpdateConstants", "the buffer is null");
-  const bool tooLarge = size > buffer->Desc().byteWidth;
-  Refuse(tooLarge ? MsgCode::OutOfBounds : MsgCode::MapMode, buffer->Desc().name, "UpdateConstants",
-         "it needs a dynamic constant buffer and at most its byteWidth of data");
 }
 
 void Context::MarkMoved(const Buffer& buffer) {
@@ -66,29 +61,25 @@ Status Context::RefuseMap(const char* name, MsgCode code, const char* why) const
   return Status::InvalidArg;
 }
 
-void Context::WaitForCopies(bool* touched) {
-  if (*touched) FinishAll();
-  *touched = false;
+Status Context::WaitForCopies(bool* touched) {
+  if (!std::exchange(*touched, false)) return Status::Ok;
+  return FinishAll();
 }
 
 Status Context::MapBuffer(Buffer& b, MapMode mode, Mapped* out) {
   const char* name = b.Desc().name;
-  const bool staging = b.GetUsage() == Usage::Staging, dynamic = b.GetUsage() == Usage::Dynamic;
-  const bool discard = mode == MapMode::WriteDiscard, write = discard || mode == MapMode::WriteNoOverwrite;
+  const bool staging = b.GetUsage() == Usage::Staging, discard = mode == MapMode::WriteDiscard;
+  if (CheckMap(b.Desc(), mode).Refuses(log_, name)) return Status::InvalidArg;
   if (b.mapped) return RefuseMap(name, MsgCode::MapTwice, "the buffer is mapped already; call Unmap first");
-  if (!(dynamic && write) && !(staging && !write))
-    return RefuseMap(name, MsgCode::MapMode,
-                     "dynamic buffers take WriteDiscard and WriteNoOverwrite, staging ones Read and Write");
-  if (b.IsRingConstant() && !discard)
-    return RefuseMap(name, MsgCode::MapMode, "constant buffers take WriteDiscard only, as in Direct3D 10");
-  if (staging) WaitForCopies(&b.gpuTouched);
+  if (staging)
+    if (Status s = WaitForCopies(&b.gpuTouched); s != Status::Ok) return s;
   std::byte* data = b.data;
   if (discard) {
     data = b.IsRingConstant() ? ring_.Rename(b) : b.Rename();
     if (!b.IsRingConstant()) stats_.ringBytes += b.Desc().byteWidth;
     MarkMoved(b);
   }
-  if (!data) return Status::OutOfMemory;
+  if (!data) return core_.IsLost() ? Status::DeviceLost : Status::OutOfMemory;
   b.mapped = true;
   *out = {data, b.Desc().byteWidth, b.Desc().byteWidth};
   return Status::Ok;
@@ -96,12 +87,9 @@ Status Context::MapBuffer(Buffer& b, MapMode mode, Mapped* out) {
 
 Status Context::MapTexture(Texture& t, uint32_t subresource, MapMode mode, Mapped* out) {
   const char* name = t.Desc().name;
-  if (!t.IsStaging() || (mode != MapMode::Read && mode != MapMode::Write))
-    return RefuseMap(name, MsgCode::MapMode, "textures are mapped with Usage::Staging only, for Read or Write");
-  if (subresource >= t.SubresourceCount())
-    return RefuseMap(name, MsgCode::SubresourceOutOfRange, "the subresource does not exist");
+  if (CheckMap(t.Desc(), subresource, mode).Refuses(log_, name)) return Status::InvalidArg;
   if (t.mapped[subresource]) return RefuseMap(name, MsgCode::MapTwice, "it is mapped already; call Unmap first");
-  WaitForCopies(&t.gpuTouched);
+  if (Status s = WaitForCopies(&t.gpuTouched); s != Status::Ok) return s;
   const MipLayout m = t.Layout(subresource);
   std::byte* data = t.stagingData + t.StagingOffset(subresource);
   if (t.Desc().format == Format::D24_UNorm_S8_UInt) DepthStencilFromGl(data, m.sliceBytes * m.depth / 4);
@@ -112,19 +100,25 @@ Status Context::MapTexture(Texture& t, uint32_t subresource, MapMode mode, Mappe
 
 Status Context::Map(IResource* resource, uint32_t subresource, MapMode mode, Mapped* out) {
   *out = {};
-  Settle();
+  if (!Settle()) return Status::DeviceLost;
   if (Buffer* b = AsBuffer(resource)) return MapBuffer(*b, mode, out);
   if (Texture* t = AsTexture(resource)) return MapTexture(*t, subresource, mode, out);
   return RefuseMap("", MsgCode::InvalidDesc, "the resource is null");
 }
 
 void Context::Unmap(IResource* resource, uint32_t subresource) {
-  if (Buffer* b = AsBuffer(resource)) {
-    b->mapped = false;
+  Buffer* b = AsBuffer(resource);
+  Texture* t = AsTexture(resource);
+  const bool known = t && subresource < t->mapped.size() && t->mapped[subresource];
+  if (b ? !b->mapped : !known) {
+    RefuseMap(b   ? b->Desc().name
+              : t ? t->Desc().name
+                  : "",
+              resource ? MsgCode::MapMode : MsgCode::InvalidDesc, "Unmap of what is not mapped");
     return;
   }
-  Texture* t = AsTexture(resource);
-  if (!t || subresource >= t->mapped.size() || !t->mapped[subresource]) return;
+  if (b) b->mapped = false;
+  if (b) return;
   t->mapped[subresource] = false;
   const MipLayout m = t->Layout(subresource);
   if (t->Desc().format == Format::D24_UNorm_S8_UInt)
@@ -163,8 +157,8 @@ Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, siz
     Refuse(exists ? MsgCode::OutOfBounds : MsgCode::SubresourceOutOfRange, t ? t->Desc().name : "", "ReadBack", why);
     return Status::InvalidArg;
   }
-  Settle();
-  FinishAll();
+  if (!Settle()) return Status::DeviceLost;
+  if (Status s = FinishAll(); s != Status::Ok) return s;
   if (t->IsStaging()) {
     CopyStagingRows(*t, subresource, static_cast<std::byte*>(out), rowPitch);
     return Status::Ok;
@@ -181,8 +175,8 @@ Status Context::ReadBack(IBuffer* buffer, uint32_t offset, uint32_t size, void* 
     Refuse(MsgCode::OutOfBounds, b ? b->Desc().name : "", "ReadBack", b ? "it reaches beyond the end" : "null buffer");
     return Status::InvalidArg;
   }
-  Settle();
-  FinishAll();
+  if (!Settle()) return Status::DeviceLost;
+  if (Status s = FinishAll(); s != Status::Ok) return s;
   glGetNamedBufferSubData(b->name, GLintptr(uint64_t(b->offset) + offset), size, out);
   return Status::Ok;
 }

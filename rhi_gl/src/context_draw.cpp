@@ -13,8 +13,10 @@ constexpr uint32_t kGraphicsRest = DirtyLayout | DirtyTopology | DirtyVertexBuff
                                    DirtyConstants | DirtyRaster | DirtyViewports | DirtyScissors | DirtyBlend |
                                    DirtyBlendFactor | DirtyDepthStencil | DirtyStencilRef | DirtyTargets |
                                    kGraphicsStages * DirtyResources | kGraphicsStages * DirtySamplers | DirtyBarrier |
-                                   DirtyUnusable | DirtyThread;
+                                   DirtyUnusable | DirtyThread | DirtyFirstVertex;
 constexpr uint32_t kGraphics = kGraphicsRest | kConstantSlots;
+constexpr uint32_t kOutput = DirtyRaster | DirtyViewports | DirtyScissors | DirtyDepthStencil | DirtyStencilRef |
+                             DirtyBlendFactor | DirtyTargets;
 
 constexpr int64_t kFirstVertexLater = -2;  // an indirect draw: the GPU knows it
 
@@ -62,13 +64,16 @@ TargetSet TargetsOf(const BoundState& state) {
 // ---------------------------------------------------------------------------------------------------- the short way
 
 // The usual draw differs from the one before by its constants alone, which UpdateConstants has bound already.
-inline bool Context::Ready(int64_t firstVertex) const {
-  return !(dirty_ & kGraphics) && (!usesVertexId_ || firstVertex == firstVertex_);
-}
+inline bool Context::Ready(uint32_t firstVertex) const { return !(dirty_ & kGraphics) && firstVertex == readyFirst_; }
 
-bool Context::Prepare(int64_t firstVertex) {
+inline bool Context::Prepare(int64_t firstVertex) {
   if ((dirty_ & kGraphics) && !ApplyGraphics()) return false;
-  if (usesVertexId_ && firstVertex != kFirstVertexLater) SetFirstVertex(int32_t(firstVertex));
+  if (firstVertex == kFirstVertexLater) {
+    dirty_ |= DirtyFirstVertex;
+    return true;
+  }
+  readyFirst_ = uint32_t(firstVertex);
+  if (usesVertexId_ && firstVertex != firstVertex_) SetFirstVertex(int32_t(firstVertex));
   return true;
 }
 
@@ -125,16 +130,15 @@ void Context::DrawIndexedInstanced(uint32_t indexCount, uint32_t instanceCount, 
 
 const Buffer* Context::CheckIndirect(IBuffer* args, uint32_t offset, uint32_t size) {
   const auto* buffer = static_cast<const Buffer*>(args);
-  const char* wrong = nullptr;
-  if (!buffer) {
-    wrong = "the argument buffer is null";
-  } else if (!(buffer->Desc().bind & Bind::IndirectArgs)) {
-    wrong = "the argument buffer was made without Bind::IndirectArgs";
-  } else if (offset % 4 != 0 || offset > buffer->Desc().byteWidth || size > buffer->Desc().byteWidth - offset) {
-    wrong = "the arguments lie beyond the buffer's end, or not at a multiple of 4 bytes";
+  if (!buffer || !(buffer->Desc().bind & Bind::IndirectArgs)) {
+    ReportOnce(Severity::Error, MsgCode::WrongBindFlag,
+               "an indirect call is skipped: its arguments need a buffer made with Bind::IndirectArgs");
+    return nullptr;
   }
-  if (!wrong) return buffer;
-  ReportOnce(Severity::Error, MsgCode::OutOfBounds, "an indirect call is skipped: %s", wrong);
+  if (offset % 4 == 0 && uint64_t(offset) + size <= buffer->Desc().byteWidth) return buffer;
+  ReportOnce(Severity::Error, MsgCode::OutOfBounds,
+             "an indirect call is skipped: %u bytes at %u of a buffer of %u; stay within it, at a multiple of 4", size,
+             offset, buffer->Desc().byteWidth);
   return nullptr;
 }
 
@@ -160,25 +164,29 @@ void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
 
 // Indirect draws count indices from the start of GL's buffer, Direct3D from the offset it was bound with: they get a
 // copy that starts there.
-void Context::IndicesFromZero() {
+bool Context::IndicesFromZero() {
   auto* buffer = static_cast<Buffer*>(state_.indexBuffer.get());
   const uint64_t bytes = buffer->Desc().byteWidth - state_.indexOffset;
   if (scratchIndicesBytes_ < bytes) {
     core_.Discard(NameKind::Buffer, scratchIndices_);
-    glCreateBuffers(1, &scratchIndices_);
-    glNamedBufferStorage(scratchIndices_, GLsizeiptr(bytes), nullptr, 0);
-    scratchIndicesUid_ = core_.NewUid();
-    scratchIndicesBytes_ = bytes;
+    const bool fits = core_.Allocates([&] {
+      glCreateBuffers(1, &scratchIndices_);
+      glNamedBufferStorage(scratchIndices_, GLsizeiptr(bytes), nullptr, 0);
+    });
+    scratchIndicesBytes_ = fits ? bytes : 0;
+    if (!fits) core_.OutOfMemory("", "copy of the indices of an indirect draw, which is skipped");
+    if (!fits) return false;
   }
   glCopyNamedBufferSubData(buffer->name, scratchIndices_, GLintptr(indexBase_), 0, GLsizeiptr(bytes));
   const auto* layout = static_cast<const InputLayout*>(state_.layout.get());
   glVertexArrayElementBuffer(layout ? layout->array.name : emptyArray_.name, scratchIndices_);
+  return true;
 }
 
 void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
   const Buffer* buffer = CheckIndirect(args, offset, sizeof(DrawIndexedArgs));
   if (!buffer || !PrepareIndexed()) return;
-  if (indexBase_ != 0) IndicesFromZero();
+  if (indexBase_ != 0 && !IndicesFromZero()) return;
   gl_.UseIndirect(buffer->uid, buffer->name);
   ++stats_.draws;
   glDrawElementsIndirect(mode_, indexType_, reinterpret_cast<const void*>(uint64_t(buffer->offset) + offset));
@@ -189,7 +197,6 @@ void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
 }
 
 void Context::SetFirstVertex(int32_t first) {
-  if (first == firstVertex_) return;
   firstVertex_ = first;
   if (first == 0) {
     glBindBufferRange(GL_UNIFORM_BUFFER, kGlDrawParametersBlock, core_.zeroBuffer, 0, 16);
@@ -204,23 +211,23 @@ void Context::SetFirstVertex(int32_t first) {
 
 // ---------------------------------------------------------------------------------------------------- the long way
 
-bool Context::CheckInputs(const Shader& vs, const Shader* gs) {
+inline bool Context::CheckInputs(const Shader& vs, const Shader* gs) {
   const auto* layout = static_cast<const InputLayout*>(state_.layout.get());
-  if ((vs.inputMask & ~(layout ? layout->attributeMask : 0u)) != 0) {
+  const bool fed = (vs.inputMask & ~(layout ? layout->attributeMask : 0u)) == 0;
+  if (fed && (!gs || gs->reflection.gsInput == ListOf(state_.topology))) [[likely]]
+    return true;
+  if (!fed) {
     ReportOnce(Severity::Error, MsgCode::LayoutMismatch, "a draw is skipped: %s reads inputs that the input layout %s",
                vs.Name().c_str(), layout ? "was not made for" : "(none is set) does not give");
-    return false;
-  }
-  if (gs && gs->reflection.gsInput != ListOf(state_.topology)) {
+  } else {
     ReportOnce(Severity::Error, MsgCode::TopologyMismatch, "a draw is skipped: %s takes %s, the topology is %s",
                gs->Name().c_str(), ToString(gs->reflection.gsInput), ToString(state_.topology));
-    return false;
   }
-  return true;
+  return false;
 }
 
 // Finds the framebuffer and the program; false, with a message, if nothing can be drawn.
-bool Context::CheckGraphics() {
+inline bool Context::CheckGraphics() {
   if (dirty_ & DirtyTargets) framebuffer_ = &core_.framebuffers.Get(TargetsOf(state_));
   if (framebuffer_->problem != MsgCode::None) {
     ReportOnce(Severity::Error, framebuffer_->problem, "a draw is skipped: %s", framebuffer_->explanation.c_str());
@@ -232,44 +239,26 @@ bool Context::CheckGraphics() {
     return false;
   }
   if (dirty_ & DirtyShaders) {
-    bool made = false;
-    program_ = &core_.programs.Get(vs, gs, ShaderOf(state_, Stage::Pixel), &made);
+    program_ = &core_.programs.Get(vs, gs, ShaderOf(state_, Stage::Pixel), &stats_.pipelineMisses);
     ++stats_.pipelineLookups;
-    stats_.pipelineMisses += made;
   }
   if (program_->name != 0) return CheckInputs(*vs, gs);
   ReportOnce(Severity::Error, MsgCode::ShaderRejected, "a draw is skipped: its shaders did not link");
   return false;
 }
 
-bool Context::ApplyGraphics() {
-  if (dirty_ & DirtyThread) Enter();
-  if (dirty_ & DirtyBarrier) Barrier();
-  if (!CheckGraphics()) {
-    dirty_ |= DirtyUnusable;
-    return false;
-  }
-  if (gl_.UseFramebuffer(framebuffer_->uid, framebuffer_->name)) ++stats_.passes;
-  ApplyProgram(*ShaderOf(state_, Stage::Vertex));
-  if (dirty_ & (DirtyLayout | DirtyVertexBuffers | DirtyIndexBuffer)) ApplyVertexArray();
-  ApplyOutput();
-  if (dirty_ & (DirtyConstants | kConstantSlots))
-    BindConstants(dirty_ & DirtyConstants ? 0xFu : (dirty_ & kConstantSlots) / DirtyConstantSlot);
-  dirty_ &= ~kGraphics;
-  return true;
-}
-
-void Context::ApplyProgram(const Shader& vs) {
+inline void Context::ApplyProgram() {
   if (dirty_ & DirtyTopology) {
     mode_ = kModes[size_t(state_.topology)];
     gl_.Set(GlState::StripCut, IsStrip(state_.topology));
   }
   gl_.UseProgram(program_->uid, program_->name);
-  usesVertexId_ = vs.reflection.usesVertexId;
+  usesVertexId_ = program_->usesVertexId;
+  if (!program_->readsResources) return;
   for (uint32_t stage = 0; stage < uint32_t(Stage::Compute); ++stage) {
     const uint32_t causes = DirtyShaders | DirtyResources << stage | DirtySamplers << stage;
     const Shader* shader = ShaderOf(state_, Stage(stage));
-    if (shader && (dirty_ & causes)) BindStage(Stage(stage), *shader);
+    if (shader && shader->readsResources && (dirty_ & causes)) BindStage(Stage(stage), *shader);
   }
 }
 
@@ -306,23 +295,45 @@ void Context::ApplyIndexBuffer(VertexArray& array) {
   glVertexArrayElementBuffer(array.name, buffer->name);
 }
 
-// Rasterizer and output merger.
+// Rasterizer and output merger, without its blending.
 void Context::ApplyOutput() {
   static const RasterizerDesc kRaster;
   static const DepthStencilDesc kDepth;
-  static const BlendDesc kBlend;
   if (dirty_ & DirtyRaster) gl_.SetRaster(state_.raster ? state_.raster->Desc() : kRaster);
   if (dirty_ & DirtyViewports) gl_.SetViewports(state_.viewports.data(), state_.viewportCount);
   if (dirty_ & DirtyScissors) gl_.SetScissors(state_.scissors.data(), state_.scissorCount);
   if (dirty_ & (DirtyDepthStencil | DirtyStencilRef))
     gl_.SetDepthStencil(state_.depthStencil ? state_.depthStencil->Desc() : kDepth, state_.stencilRef);
-  // Without a pixel shader colours stay as they are; GL would write whatever it finds.
-  const bool colors = ShaderOf(state_, Stage::Pixel) != nullptr;
-  if ((dirty_ & (DirtyBlend | DirtyTargets)) || colors != writesColors_)
-    gl_.SetBlend(state_.blend ? state_.blend->Desc() : kBlend, colors, state_.targetCount);
-  writesColors_ = colors;
   if (dirty_ & DirtyBlendFactor) gl_.SetBlendFactor(state_.blendFactor);
   if (dirty_ & (DirtyBlendFactor | DirtyTargets)) gl_.SetSampleMask(state_.sampleMask, framebuffer_->samples);
+}
+
+inline void Context::ApplyBlend() {
+  static const BlendDesc kBlend;
+  // Without a pixel shader colours stay as they are; GL would write whatever it finds.
+  const bool colors = ShaderOf(state_, Stage::Pixel) != nullptr;
+  const auto* blend = static_cast<const BlendState*>(state_.blend.get());
+  if ((dirty_ & (DirtyBlend | DirtyTargets)) || colors != writesColors_)
+    gl_.SetBlend(blend ? blend->Desc() : kBlend, colors, state_.targetCount);
+  writesColors_ = colors;
+}
+
+bool Context::ApplyGraphics() {
+  if ((dirty_ & DirtyThread) && !Enter()) return false;
+  if (dirty_ & DirtyBarrier) Barrier();
+  if (!CheckGraphics()) {
+    dirty_ |= DirtyUnusable;
+    return false;
+  }
+  if (gl_.UseFramebuffer(framebuffer_->uid, framebuffer_->name)) ++stats_.passes;
+  ApplyProgram();
+  if (dirty_ & (DirtyLayout | DirtyVertexBuffers | DirtyIndexBuffer)) ApplyVertexArray();
+  if (dirty_ & kOutput) ApplyOutput();
+  if (dirty_ & (DirtyBlend | DirtyTargets | DirtyShaders)) ApplyBlend();
+  if (dirty_ & (DirtyConstants | kConstantSlots))
+    BindConstants(dirty_ & DirtyConstants ? 0xFu : (dirty_ & kConstantSlots) / DirtyConstantSlot);
+  dirty_ &= ~kGraphics;
+  return true;
 }
 
 }  // namespace rhi_gl

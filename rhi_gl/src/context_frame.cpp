@@ -24,9 +24,9 @@ Context::Context(IDevice& device, const CorePtr& core, const DeviceDesc& desc)
 // The other GL objects of the context end with it.
 Context::~Context() {
   core_.context = nullptr;
-  core_.Enter();
+  const bool usable = core_.Enter();
   for (const Ref<Query>& q : activeQueries_)
-    if (q) q->EndGl();
+    if (q && usable) q->EndGl();
   ClearState();
 }
 
@@ -47,11 +47,12 @@ void Context::LoseThread() {
   ring_.Close();
 }
 
-void Context::Enter() {
-  core_.Enter();
-  if (!(dirty_ & DirtyThread)) return;
+bool Context::Enter() {
+  if (!core_.Enter()) return false;
+  if (!(dirty_ & DirtyThread)) return true;
   dirty_ &= ~uint32_t(DirtyThread);
   ring_.Open();
+  return true;
 }
 
 void Context::AfterFrame() {
@@ -61,35 +62,37 @@ void Context::AfterFrame() {
   LoseThread();  // between frames somebody else may have used the thread
 }
 
-void Context::FinishAll() {
+// What was waited for is there only if the device still is.
+Status Context::FinishAll() {
   core_.Finish();
+  if (!core_.Alive()) return Status::DeviceLost;
   AfterFrame();
+  return Status::Ok;
 }
 
 void Context::Flush() {
-  Enter();
+  if (!Enter()) return;
   core_.Drain();
   glFlush();
+  core_.Alive();
 }
 
 void Context::EndFrame() {
-  Enter();
-  if (!core_.frames.EndFrame(framesInFlight_))
-    log_.Report(Severity::Error, MsgCode::DeviceLost, "", "the GPU does not finish its work; make the device anew");
+  if (!Enter()) return;
+  const bool done = core_.frames.EndFrame(framesInFlight_);
+  if (!core_.Alive() || (!done && !core_.Lose("the GPU does not finish its work"))) return;
   AfterFrame();
 }
 
 Status Context::WaitIdle() {
-  Enter();
-  FinishAll();
-  const bool lost = glGetGraphicsResetStatus() != GL_NO_ERROR;
-  if (lost) log_.Report(Severity::Error, MsgCode::DeviceLost, "", "the GPU was reset; make the device anew");
+  if (!Enter()) return Status::DeviceLost;
+  const Status status = FinishAll();
   core_.Leave();  // so that another thread may go on with the device
-  return lost ? Status::DeviceLost : Status::Ok;
+  return status;
 }
 
 void Context::BeginEvent(const char* name) {
-  Enter();
+  if (!Enter()) return;
   // GL's stack holds itself as its first entry; deeper groups are counted only.
   if (++eventDepth_ >= core_.limits.maxDebugGroups) return;
   const size_t length = std::min<size_t>(std::strlen(name), core_.limits.maxDebugMessage - 1);
@@ -97,7 +100,7 @@ void Context::BeginEvent(const char* name) {
 }
 
 void Context::EndEvent() {
-  Enter();
+  if (!Enter()) return;
   if (eventDepth_ == 0) {
     ReportOnce(Severity::Warning, MsgCode::QueryOrder, "EndEvent without a BeginEvent is ignored");
     return;
@@ -106,7 +109,7 @@ void Context::EndEvent() {
 }
 
 Status Context::Precache(const PipelineKeyDesc& key) {
-  Enter();
+  if (!core_.Alive() || !Enter()) return Status::DeviceLost;
   const auto *vs = static_cast<const Shader*>(key.vs), *gs = static_cast<const Shader*>(key.gs),
              *ps = static_cast<const Shader*>(key.ps);
   const bool fit =
@@ -115,9 +118,7 @@ Status Context::Precache(const PipelineKeyDesc& key) {
     Refuse(MsgCode::NoVertexShader, "", "PrecachePipeline", "it needs a vertex shader, and each shader in its place");
     return Status::InvalidArg;
   }
-  bool made = false;
-  const Program& program = core_.programs.Get(vs, gs, ps, &made);
-  stats_.pipelineMisses += made;
+  const Program& program = core_.programs.Get(vs, gs, ps, &stats_.pipelineMisses);
   return program.name ? Status::Ok : Status::CompileFailed;
 }
 

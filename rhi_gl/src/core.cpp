@@ -64,12 +64,11 @@ Core::Core(const DeviceDesc& desc, const Caps& adapterCaps)
     : log(desc.sink), caps(adapterCaps), framebuffers(*this), programs(*this), validation(desc.apiValidation) {}
 
 Core::~Core() {
-  Enter();
-  Drain();
+  if (Enter()) Drain();  // else all ends with the context
   egl.Destroy();
 }
 
-void Core::Start() {
+bool Core::Start() {
   threadOwner = weak_from_this();
   if (validation) InstallDebugCallback(*this);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // the shaders turn the picture over: rhi/shader.h
@@ -80,8 +79,10 @@ void Core::Start() {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   const std::vector<std::byte> zeros(kMaxConstantBufferBytes);
-  glCreateBuffers(1, &zeroBuffer);
-  glNamedBufferStorage(zeroBuffer, GLsizeiptr(zeros.size()), zeros.data(), 0);
+  return Allocates([&] {
+    glCreateBuffers(1, &zeroBuffer);
+    glNamedBufferStorage(zeroBuffer, GLsizeiptr(zeros.size()), zeros.data(), 0);
+  });
 }
 
 void Core::ForgetThread() {
@@ -89,14 +90,39 @@ void Core::ForgetThread() {
   threadOwner.reset();
 }
 
-void Core::Enter() {
-  if (egl.IsCurrent()) return;
+bool Core::Enter() {
+  if (lost_) return false;
+  if (egl.IsCurrent()) return true;
   ForgetThread();
-  if (!egl.MakeCurrent())
+  if (!egl.MakeCurrent()) {
+    if (egl.WasLost()) return Lose("EGL has lost the context");
     log.Report(
         Severity::Error, MsgCode::DeviceLost, "",
         "the GL context cannot be made current: it is still current on another thread; call WaitIdle there first");
+    return false;
+  }
   threadOwner = weak_from_this();
+  return true;
+}
+
+bool Core::Alive() {
+  if (!Enter()) return false;
+  // Asked once only: a driver that is done with a reset answers that all is well again.
+  switch (glGetGraphicsResetStatus()) {
+    case GL_NO_ERROR: return true;
+    case GL_GUILTY_CONTEXT_RESET: return Lose("the GPU was reset because of this device's work");
+    case GL_INNOCENT_CONTEXT_RESET: return Lose("the GPU was reset because of somebody else's work");
+    default: return Lose("the GPU was reset");
+  }
+}
+
+bool Core::Lose(const char* why) {
+  if (lost_) return false;
+  lost_ = true;
+  if (context) context->LoseThread();  // whose way back is Enter
+  log.Report(Severity::Error, MsgCode::DeviceLost, "",
+             "%s; nothing more is done, release this device and its objects and make a new one", why);
+  return false;
 }
 
 void Core::Leave() {
@@ -115,11 +141,11 @@ void Core::Drain() {
   deadSyncs_.clear();
 }
 
-void Core::BeginAllocation() {
-  Enter();
+bool Core::BeginAllocation() {
+  if (!Enter()) return false;
   Drain();
   ClearErrors();
-  allocating = true;
+  return allocating = true;
 }
 
 bool Core::EndAllocation() {
@@ -127,20 +153,20 @@ bool Core::EndAllocation() {
   return glGetError() != GL_OUT_OF_MEMORY;
 }
 
-Status Core::OutOfMemory(const char* name, const char* what) const {
+Status Core::OutOfMemory(const char* name, const char* what) {
+  if (!Alive()) return Status::DeviceLost;
   log.Report(Severity::Error, MsgCode::OutOfMemory, name, "GL has no memory for this %s", what);
   return Status::OutOfMemory;
 }
 
 void Core::Label(GLenum identifier, GLuint name, const char* label) {
-  if (!validation || name == 0 || !label || !*label) return;
-  Enter();
+  if (!validation || name == 0 || !label || !*label || !Enter()) return;
   const size_t length = std::min<size_t>(std::char_traits<char>::length(label), limits.maxLabel - 1);
   glObjectLabel(identifier, name, GLsizei(length), label);
 }
 
 void Core::Finish() {
-  Enter();
+  if (!Enter()) return;
   glFinish();
   frames.Finished();
 }

@@ -35,7 +35,8 @@ class FrameClock {
  public:
   uint64_t Current() const { return current_; }
   uint64_t Completed() const { return completed_; }
-  // Ends the current frame; waits while more than `framesInFlight` frames are unfinished. False: the device is lost.
+  // Ends the current frame; waits while more than `framesInFlight` frames are unfinished. False: the GPU does not
+  // finish them.
   bool EndFrame(uint32_t framesInFlight);
   // After glFinish: all that was recorded is done.
   void Finished();
@@ -58,12 +59,18 @@ class Core : public std::enable_shared_from_this<Core> {
   Core(const Core&) = delete;
   Core& operator=(const Core&) = delete;
 
-  // Takes the context, current, and sets what never changes.
-  void Start();
+  // Takes the context, current, and sets what never changes. False: no memory even for that.
+  bool Start();
 
   // Makes the context current on this thread, whoever else made his own current meanwhile. The device that was current
-  // here learns it by Context::LoseThread, so that its draws need not ask each time.
-  void Enter();
+  // here learns it by Context::LoseThread, so that its draws need not ask each time. False: nothing can be done with
+  // GL, because the device is lost (which was said then) or its context cannot be had (which is said now).
+  bool Enter();
+  // Enter, and asks the driver whether the context was reset. Where work ends up waiting, or something is made.
+  bool Alive();
+  // From now on every call gives DeviceLost or is ignored. Says so once; false.
+  bool Lose(const char* why);
+  bool IsLost() const { return lost_; }
   // Gives the thread's context up, so that another thread may use the device.
   void Leave();
   // A context of nobody's is about to be made current on this thread.
@@ -82,11 +89,12 @@ class Core : public std::enable_shared_from_this<Core> {
   // Runs `make` and tells whether memory sufficed.
   template <class F>
   bool Allocates(F&& make) {
-    BeginAllocation();
+    if (!BeginAllocation()) return false;
     make();
     return EndAllocation();
   }
-  Status OutOfMemory(const char* name, const char* what) const;
+  // Says that this memory is missing, and gives the status; DeviceLost where that is the reason.
+  Status OutOfMemory(const char* name, const char* what);
 
   void Label(GLenum identifier, GLuint name, const char* label);
   // glFinish, and all frames are complete.
@@ -113,9 +121,10 @@ class Core : public std::enable_shared_from_this<Core> {
     NameKind kind;
     GLuint name;
   };
-  void BeginAllocation();
+  bool BeginAllocation();
   bool EndAllocation();
 
+  bool lost_ = false;
   uint32_t lastUid_ = 0;
   std::vector<Dead> trash_;
   std::vector<GLsync> deadSyncs_;

@@ -19,60 +19,46 @@ class Device final : public Object<IDevice> {
   uint32_t CheckMultisample(Format format, uint32_t samples) const override;
 
   Status CreateBuffer(const BufferDesc& desc, const void* init, Ref<IBuffer>* out) override {
-    *out = nullptr;
-    return Buffer::Create(core_, desc, init, out);
+    return Make(out, [&] { return Buffer::Create(core_, desc, init, out); });
   }
   Status CreateTexture(const TextureDesc& desc, const SubresourceData* init, Ref<ITexture>* out) override {
-    *out = nullptr;
-    return Texture::Create(core_, desc, init, out);
+    return Make(out, [&] { return Texture::Create(core_, desc, init, out); });
   }
   Status CreateShaderResourceView(IResource* r, const ViewDesc* desc, Ref<IShaderResourceView>* out) override {
-    *out = nullptr;
-    return rhi_gl::CreateShaderResourceView(core_, r, desc, out);
+    return Make(out, [&] { return rhi_gl::CreateShaderResourceView(core_, r, desc, out); });
   }
   Status CreateRenderTargetView(ITexture* t, const ViewDesc* desc, Ref<IRenderTargetView>* out) override {
-    *out = nullptr;
-    return rhi_gl::CreateRenderTargetView(core_, t, desc, out);
+    return Make(out, [&] { return rhi_gl::CreateRenderTargetView(core_, t, desc, out); });
   }
   Status CreateDepthStencilView(ITexture* t, const ViewDesc* desc, Ref<IDepthStencilView>* out) override {
-    *out = nullptr;
-    return rhi_gl::CreateDepthStencilView(core_, t, desc, out);
+    return Make(out, [&] { return rhi_gl::CreateDepthStencilView(core_, t, desc, out); });
   }
   Status CreateUnorderedAccessView(IResource* r, const ViewDesc* desc, Ref<IUnorderedAccessView>* out) override {
-    *out = nullptr;
-    return rhi_gl::CreateUnorderedAccessView(core_, r, desc, out);
+    return Make(out, [&] { return rhi_gl::CreateUnorderedAccessView(core_, r, desc, out); });
   }
   Status CreateShader(const ShaderBlob& blob, Ref<IShader>* out) override {
-    *out = nullptr;
-    return Shader::Create(core_, blob, out);
+    return Make(out, [&] { return Shader::Create(core_, blob, out); });
   }
   Status CreateInputLayout(const InputElement* e, uint32_t count, IShader* vs, Ref<IInputLayout>* out) override {
-    *out = nullptr;
-    return InputLayout::Create(core_, e, count, vs, out);
+    return Make(out, [&] { return InputLayout::Create(core_, e, count, vs, out); });
   }
   Status CreateBlendState(const BlendDesc& desc, Ref<IBlendState>* out) override {
-    *out = nullptr;
-    return rhi_gl::CreateBlendState(core_, desc, out);
+    return MakeState(out, [&] { return rhi_gl::CreateBlendState(core_, desc, out); });
   }
   Status CreateDepthStencilState(const DepthStencilDesc& desc, Ref<IDepthStencilState>* out) override {
-    *out = nullptr;
-    return rhi_gl::CreateDepthStencilState(core_, desc, out);
+    return MakeState(out, [&] { return rhi_gl::CreateDepthStencilState(core_, desc, out); });
   }
   Status CreateRasterizerState(const RasterizerDesc& desc, Ref<IRasterizerState>* out) override {
-    *out = nullptr;
-    return rhi_gl::CreateRasterizerState(core_, desc, out);
+    return MakeState(out, [&] { return rhi_gl::CreateRasterizerState(core_, desc, out); });
   }
   Status CreateSamplerState(const SamplerDesc& desc, Ref<ISamplerState>* out) override {
-    *out = nullptr;
-    return rhi_gl::CreateSamplerState(core_, desc, out);
+    return Make(out, [&] { return rhi_gl::CreateSamplerState(core_, desc, out); });
   }
   Status CreateQuery(const QueryDesc& desc, Ref<IQuery>* out) override {
-    *out = nullptr;
-    return Query::Create(core_, desc, out);
+    return Make(out, [&] { return Query::Create(core_, desc, out); });
   }
   Status CreateSwapChain(const SwapChainDesc& desc, Ref<ISwapChain>* out) override {
-    *out = nullptr;
-    return SwapChain::Create(core_, desc, out);
+    return Make(out, [&] { return SwapChain::Create(core_, desc, out); });
   }
 
   Status PrecachePipeline(const PipelineKeyDesc& key) override { return context_->Precache(key); }
@@ -88,6 +74,23 @@ class Device final : public Object<IDevice> {
   Stats GetStats(bool reset) override { return context_->GetStats(reset); }
 
  private:
+  // Runs `make` unless the device is lost; and what was made while it was lost is nothing.
+  template <class T, class F>
+  Status Make(Ref<T>* out, F&& make) {
+    *out = nullptr;
+    if (!core_->Alive()) return Status::DeviceLost;
+    const Status s = make();
+    if (core_->Alive()) return s;
+    *out = nullptr;
+    return Status::DeviceLost;
+  }
+  // The same for what is no object of GL's.
+  template <class T, class F>
+  Status MakeState(Ref<T>* out, F&& make) {
+    *out = nullptr;
+    return core_->IsLost() ? Status::DeviceLost : make();
+  }
+
   CorePtr core_;
   std::array<FormatSupport, size_t(Format::Count)> formats_{};
   std::unique_ptr<Context> context_;
@@ -99,15 +102,13 @@ Device::Device(const CorePtr& core, const DeviceDesc& desc) : core_(core) {
 }
 
 Device::~Device() {
-  core_->Enter();
   context_.reset();
-  core_->Drain();
+  if (core_->Enter()) core_->Drain();
   core_->log = MessageLog();  // the sink must outlive the device, not the objects that are released after it
 }
 
 uint32_t Device::CheckMultisample(Format format, uint32_t samples) const {
-  core_->Enter();
-  return samples > 0 && SupportsSamples(format, samples) ? 1 : 0;
+  return core_->Enter() && samples > 0 && SupportsSamples(format, samples) ? 1 : 0;
 }
 
 // ------------------------------------------------------------------------------------------------------ the adapters
@@ -149,8 +150,9 @@ CorePtr TryPlace(const EglPlace& place, const DeviceDesc& desc, std::string* why
   core->caps.software = core->caps.software || place.software;
   core->caps.swapChain = desc.nativeDisplay != nullptr;
   core->limits = QueryLimits();
-  core->Start();
-  return core;
+  if (core->Start()) return core;
+  *why = name + " has no memory left";
+  return nullptr;
 }
 
 }  // namespace

@@ -189,6 +189,8 @@ bool EglContext::MakeCurrent() {
 
 void EglContext::Release() { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
+bool EglContext::WasLost() const { return eglGetError() == EGL_CONTEXT_LOST; }
+
 bool EglContext::IsCurrent() const { return eglGetCurrentContext() == context_; }
 
 void* EglContext::CreateWindowSurface(void* window, std::string* why) {

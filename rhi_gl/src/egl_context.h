@@ -37,6 +37,7 @@ class EglContext {
   bool MakeCurrent();
   void Release();  // no context is current on this thread afterwards
   bool IsCurrent() const;
+  bool WasLost() const;  // why MakeCurrent, just called, gave false
 
   // The picture of an X11 window, an EGLSurface. Null, with the reason in *why.
   void* CreateWindowSurface(void* window, std::string* why);

@@ -1,6 +1,7 @@
 #include "gl_state.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "states.h"
 
@@ -19,6 +20,14 @@ constexpr std::array<GLenum, GlState::ToggleCount> kToggles{GL_DEPTH_TEST,
                                                             GL_LINE_SMOOTH,
                                                             GL_PRIMITIVE_RESTART_FIXED_INDEX,
                                                             GL_RASTERIZER_DISCARD};
+
+// Factors and operations as one number: one comparison instead of six.
+uint64_t EquationOf(const RenderTargetBlend& b) {
+  RenderTargetBlend equation = b;
+  equation.enable = false;
+  equation.writeMask = 0;
+  return std::bit_cast<uint64_t>(equation);
+}
 
 bool HasBias(const RasterizerDesc& d) { return d.depthBias != 0 || d.slopeScaledBias != 0; }
 
@@ -113,37 +122,38 @@ void GlState::OpenDepthStencilMasks() {
 }
 
 void GlState::SetColorMask(uint32_t drawBuffer, uint8_t mask) {
-  if (mask == blend_[drawBuffer].writeMask) return;
   blend_[drawBuffer].writeMask = mask;
   glColorMaski(drawBuffer, mask & 1, (mask >> 1) & 1, (mask >> 2) & 1, (mask >> 3) & 1);
 }
 
-void GlState::SetTargetBlend(uint32_t i, const RenderTargetBlend& b) {
+// The switch comes last, so that it can be a jump.
+inline void GlState::SetTargetBlend(uint32_t i, const RenderTargetBlend& b, uint8_t mask) {
   RenderTargetBlend& shadow = blend_[i];
-  if (b.enable != shadow.enable) {
-    if (b.enable) {
-      glEnablei(GL_BLEND, i);
-    } else {
-      glDisablei(GL_BLEND, i);
-    }
-    shadow.enable = b.enable;
+  if (b.enable && EquationOf(b) != EquationOf(shadow)) SetEquation(i, b);
+  if (mask != shadow.writeMask) SetColorMask(i, mask);
+  if (b.enable == shadow.enable) return;
+  shadow.enable = b.enable;
+  if (b.enable) {
+    glEnablei(GL_BLEND, i);
+  } else {
+    glDisablei(GL_BLEND, i);
   }
-  if (!b.enable) return;
+}
+
+void GlState::SetEquation(uint32_t i, const RenderTargetBlend& b) {
+  RenderTargetBlend& shadow = blend_[i];
   if (b.src != shadow.src || b.dest != shadow.dest || b.srcAlpha != shadow.srcAlpha || b.destAlpha != shadow.destAlpha)
     glBlendFuncSeparatei(i, ToGl(b.src), ToGl(b.dest), ToGl(b.srcAlpha), ToGl(b.destAlpha));
   if (b.op != shadow.op || b.opAlpha != shadow.opAlpha) glBlendEquationSeparatei(i, ToGl(b.op), ToGl(b.opAlpha));
-  const uint8_t mask = shadow.writeMask;
-  shadow = b;
-  shadow.writeMask = mask;
+  shadow = {shadow.enable, b.src, b.dest, b.op, b.srcAlpha, b.destAlpha, b.opAlpha, shadow.writeMask};
 }
 
 void GlState::SetBlend(const BlendDesc& d, bool colors, uint32_t targets) {
-  for (uint32_t i = 0; i < targets; ++i) {
-    const RenderTargetBlend& b = d.rt[d.independent ? i : 0];
-    SetTargetBlend(i, b);
-    SetColorMask(i, colors ? b.writeMask : 0);
-  }
   Set(AlphaToCoverage, d.alphaToCoverage);
+  const auto set = [&](uint32_t i, const RenderTargetBlend& b) { SetTargetBlend(i, b, colors ? b.writeMask : 0); };
+  if (targets == 1) [[likely]]
+    return set(0, d.rt[0]);
+  for (uint32_t i = 0; i < targets; ++i) set(i, d.rt[d.independent ? i : 0]);
 }
 
 void GlState::SetBlendFactor(const std::array<float, 4>& f) {

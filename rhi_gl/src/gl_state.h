@@ -39,7 +39,8 @@ class GlState {
   bool UseFramebuffer(uint32_t uid, GLuint name) {  // true: it was another
     if (framebuffer_ == uid) return false;
     framebuffer_ = uid;
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name);
+    // For reading too, though nothing reads there: Mesa would look at each draw for what stands in for none.
+    glBindFramebuffer(GL_FRAMEBUFFER, name);
     return true;
   }
   void UseProgram(uint32_t uid, GLuint name) {
@@ -89,7 +90,9 @@ class GlState {
 
   // For clears, which in Direct3D know no masks and no scissor. What they change here differs afterwards, so the next
   // draw sets it right; the caller marks the state dirty.
-  void OpenColorMask(uint32_t drawBuffer) { SetColorMask(drawBuffer, 0xF); }
+  void OpenColorMask(uint32_t drawBuffer) {
+    if (blend_[drawBuffer].writeMask != 0xF) SetColorMask(drawBuffer, 0xF);
+  }
   void OpenDepthStencilMasks();
   void CloseClearGates() {
     Set(Scissor, false);
@@ -99,7 +102,8 @@ class GlState {
  private:
   void Flip(Toggle);
   void SetColorMask(uint32_t drawBuffer, uint8_t mask);
-  void SetTargetBlend(uint32_t drawBuffer, const rhi::RenderTargetBlend&);
+  void SetTargetBlend(uint32_t drawBuffer, const rhi::RenderTargetBlend&, uint8_t writeMask);
+  void SetEquation(uint32_t drawBuffer, const rhi::RenderTargetBlend&);
   void SetStencilFace(GLenum face, rhi::StencilFace* shadow, const rhi::StencilFace&, const rhi::DepthStencilDesc&,
                       uint32_t ref);
   void SetDepthBias(const rhi::RasterizerDesc&);

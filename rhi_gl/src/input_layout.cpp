@@ -29,7 +29,6 @@ Status InputLayout::Create(const CorePtr& core, const InputElement* elements, ui
                      count);
     return Status::InvalidArg;
   }
-  core->Enter();
   auto layout = Ref<InputLayout>::Adopt(new InputLayout(core));
   layout->array.uid = core->NewUid();
   glCreateVertexArrays(1, &layout->array.name);

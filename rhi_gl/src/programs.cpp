@@ -72,11 +72,23 @@ const ShaderCode* ProgramCache::Compile(Stage stage, const char* glsl, bool last
   return &codes_.emplace(key, code).first->second;
 }
 
-const Program& ProgramCache::Get(const Shader* vs, const Shader* gs, const Shader* ps, bool* made) {
+const Program& ProgramCache::Get(const Shader* vs, const Shader* gs, const Shader* ps, uint64_t* misses) {
   const Key key{vs->code->uid, gs ? gs->code->uid : 0, ps ? ps->code->uid : 0};
-  const auto found = made_.find(key);
-  *made = found == made_.end();
-  return *made ? made_.emplace(key, Make(vs, gs, ps)).first->second : found->second;
+  const Recent& recent = recent_[(key[0] + key[1] + key[2]) % recent_.size()];
+  if (recent.key[0] != key[0] || recent.key[1] != key[1] || recent.key[2] != key[2]) [[unlikely]]
+    return Find(key, vs, gs, ps, misses);
+  return *recent.program;
+}
+
+const Program& ProgramCache::Find(const Key& key, const Shader* vs, const Shader* gs, const Shader* ps,
+                                  uint64_t* misses) {
+  auto found = made_.find(key);
+  if (found == made_.end()) {
+    ++*misses;
+    found = made_.emplace(key, Make(vs, gs, ps)).first;
+  }
+  recent_[(key[0] + key[1] + key[2]) % recent_.size()] = {key, &found->second};
+  return found->second;
 }
 
 Program ProgramCache::Make(const Shader* vs, const Shader* gs, const Shader* ps) {
@@ -84,10 +96,11 @@ Program ProgramCache::Make(const Shader* vs, const Shader* gs, const Shader* ps)
   Program p;
   p.uid = core_.NewUid();
   p.usesVertexId = vs->reflection.usesVertexId;
+  p.readsResources = vs->readsResources || (gs && gs->readsResources) || (ps && ps->readsResources);
   const ShaderCode* vertexCode = gs ? Compile(Stage::Vertex, vs->glsl, false, &why) : vs->code;
   p.name =
       LinkProgram({vertexCode ? vertexCode->shader : 0, gs ? gs->code->shader : 0, ps ? ps->code->shader : 0}, &why);
-  if (p.name == 0)
+  if (p.name == 0 && core_.Alive())
     core_.log.Report(Severity::Error, MsgCode::ShaderRejected, vs->Name().c_str(),
                      "the driver cannot link %s, %s and %s: %s", vs->Name().c_str(), gs ? gs->Name().c_str() : "no GS",
                      ps ? ps->Name().c_str() : "no PS", why.c_str());

@@ -25,7 +25,7 @@ struct ShaderCode {
 struct Program {
   GLuint name = 0;  // 0: the driver refused to link it; a message said why
   uint32_t uid = 0;
-  bool usesVertexId = false;
+  bool usesVertexId = false, readsResources = false;
 };
 
 // Links compiled shaders, of which 0 is none; 0 and the driver's log when it refuses.
@@ -37,8 +37,8 @@ class ProgramCache {
   ProgramCache(const ProgramCache&) = delete;
   ProgramCache& operator=(const ProgramCache&) = delete;
 
-  // `gs` and `ps` may be null. *made: it was not there yet.
-  const Program& Get(const Shader* vs, const Shader* gs, const Shader* ps, bool* made);
+  // `gs` and `ps` may be null. Counts in *misses where it was not there yet. Programs stay where they are.
+  const Program& Get(const Shader* vs, const Shader* gs, const Shader* ps, uint64_t* misses);
 
   // The code of this text, compiled now if it is new; null, and the driver's log, when it refuses. `lastStage`: no
   // other stage stands between a vertex shader and the rasterizer (rhi/shader.h).
@@ -51,11 +51,18 @@ class ProgramCache {
       return size_t(((uint64_t(k[0]) * 0x9E3779B1u + k[1]) * 0x85EBCA77u) ^ (uint64_t(k[2]) * 0xC2B2AE3Du));
     }
   };
+  const Program& Find(const Key&, const Shader* vs, const Shader* gs, const Shader* ps, uint64_t* misses);
   Program Make(const Shader* vs, const Shader* gs, const Shader* ps);
 
   Core& core_;
   std::unordered_map<std::string, ShaderCode> codes_;  // by stage and text
   std::unordered_map<Key, Program, Hash> made_;
+  // What was asked for last, by a few bits of the key: a frame's programs are few, and asked for by turns.
+  struct Recent {
+    Key key{};
+    const Program* program = nullptr;
+  };
+  std::array<Recent, 64> recent_;
 };
 
 }  // namespace rhi_gl

@@ -68,6 +68,7 @@ class Buffer final : public Object<IBuffer> {
   bool AllocateFixed(const void* init, GLbitfield flags);
   bool AllocateVersions(const void* init);
   bool AddVersions();
+  bool MakeHome();
 
   CorePtr core_;
   BufferDesc desc_;
@@ -147,7 +148,8 @@ using RenderTargetView = View<IRenderTargetView>;
 using DepthStencilView = View<IDepthStencilView>;
 using UnorderedAccessView = View<IUnorderedAccessView>;
 
-// A view of the given mips and slices, as `format`; a cube's subset becomes a 2D array.
+// A view of the given mips and slices, as `format` and *target. Where that is GL_NONE it becomes the texture's own, or
+// for a part of a cube a 2D array.
 GLuint MakeGlView(const Texture&, Format, uint32_t firstMip, uint32_t mipCount, uint32_t firstSlice,
                   uint32_t sliceCount, GLenum* target);
 

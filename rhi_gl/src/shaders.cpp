@@ -29,7 +29,6 @@ Status Shader::Create(const CorePtr& core, const ShaderBlob& blob, Ref<IShader>*
     Reject(*core, blob.name, "the shader has no GLSL", "compile it with the GL target");
     return Status::InvalidArg;
   }
-  core->Enter();
   auto shader = Ref<Shader>::Adopt(new Shader(core, blob));
   shader->SetName(blob.name);
   if (!shader->SortResources())
@@ -37,6 +36,7 @@ Status Shader::Create(const CorePtr& core, const ShaderBlob& blob, Ref<IShader>*
                   "more pairs or structured buffers than GL has places for, or a pair without its texture");
   std::string why;
   shader->code = core->programs.Compile(blob.stage, blob.glsl, blob.stage == Stage::Vertex, &why);
+  if (!shader->code && !core->Alive()) return Status::DeviceLost;
   if (!shader->code) return Reject(*core, blob.name, "the driver cannot compile or link it", why.c_str());
   core->Label(GL_SHADER, shader->code->shader, blob.name);
   *out = shader;
@@ -50,6 +50,7 @@ bool Shader::SortResources() {
     if (IsWritable(r)) writable.push_back(&r);
   }
   std::sort(storage.begin(), storage.end(), BySlot);
+  readsResources = !pairs.empty() || !storage.empty();
   for (const ShaderInput& input : reflection.inputs) inputMask |= 1u << input.location;
   const bool complete = std::find(pairs.begin(), pairs.end(), nullptr) == pairs.end();
   return complete && pairs.size() <= kMaxShaderResources && storage.size() <= kGlMaxBuffers[size_t(stage)];

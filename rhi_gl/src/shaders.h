@@ -17,6 +17,7 @@ class Shader final : public Object<IShader> {
   const char* glsl;  // the blob's text, which has static lifetime
   ShaderReflection reflection;
   uint32_t inputMask = 0;                       // vertex: attribute locations
+  bool readsResources = false;                  // there are pairs or storage
   std::vector<const ShaderResource*> pairs;     // the texture of each of reflection.pairs
   std::vector<const ShaderResource*> storage;   // structured t registers in the order of their storage blocks
   std::vector<const ShaderResource*> writable;  // u registers

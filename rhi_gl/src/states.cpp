@@ -1,5 +1,7 @@
 #include "states.h"
 
+#include "rhi/backend/checks.h"
+
 namespace rhi_gl {
 namespace {
 
@@ -10,36 +12,11 @@ GLenum Lookup(const std::array<GLenum, N>& table, E value) {
   return table[i < N ? i : 0];
 }
 
-bool InRange(uint32_t value, uint32_t last) { return value >= 1 && value <= last; }
-
-bool ValidFactor(Blend f) { return InRange(uint32_t(f), uint32_t(Blend::InvSrc1Alpha)); }
-bool ValidOp(BlendOp op) { return InRange(uint32_t(op), uint32_t(BlendOp::Max)); }
-bool Valid(Comparison c) { return InRange(uint32_t(c), uint32_t(Comparison::Always)); }
-bool Valid(AddressMode m) { return InRange(uint32_t(m), uint32_t(AddressMode::Border)); }
-
-bool Valid(const RenderTargetBlend& b) {
-  return ValidFactor(b.src) && ValidFactor(b.dest) && ValidFactor(b.srcAlpha) && ValidFactor(b.destAlpha) &&
-         ValidOp(b.op) && ValidOp(b.opAlpha);
-}
-
-bool Valid(const StencilFace& f) {
-  const auto op = [](StencilOp o) { return InRange(uint32_t(o), uint32_t(StencilOp::Decr)); };
-  return op(f.fail) && op(f.depthFail) && op(f.pass) && Valid(f.func);
-}
-
-Status Invalid(const Core& core, const char* what) {
-  core.log.Report(Severity::Error, MsgCode::InvalidDesc, "", "%s", what);
-  return Status::InvalidArg;
-}
-
-Status Lacking(const Core& core, const char* what) {
-  core.log.Report(Severity::Error, MsgCode::CapMissing, "", "%s", what);
-  return Status::Unsupported;
-}
-
 // The living object of an equal descriptor, or a new one.
 template <class State, class Desc, class Interface>
-Status Intern(const CorePtr& core, backend::Interner<Desc, State>& table, const Desc& desc, Ref<Interface>* out) {
+Status Intern(Status checked, const CorePtr& core, backend::Interner<Desc, State>& table, const Desc& desc,
+              Ref<Interface>* out) {
+  if (checked != Status::Ok) return checked;
   Ref<State> state = table.Find(desc);
   if (!state) {
     state = Ref<State>::Adopt(new State(core, desc));
@@ -106,7 +83,6 @@ GLenum ToGl(Blend factor) {
 }
 
 SamplerState::SamplerState(const CorePtr& core, const SamplerDesc& desc) : core_(core), desc_(desc) {
-  core->Enter();
   uid = core->NewUid();
   glCreateSamplers(1, &name);
   glSamplerParameteri(name, GL_TEXTURE_WRAP_S, GLint(ToGl(desc.u)));
@@ -131,31 +107,19 @@ SamplerState::~SamplerState() {
 }
 
 Status CreateBlendState(const CorePtr& core, const BlendDesc& desc, Ref<IBlendState>* out) {
-  for (const RenderTargetBlend& b : desc.rt)
-    if (!Valid(b)) return Invalid(*core, "a BlendDesc has a factor or operation that is none");
-  return Intern(core, core->blendStates, desc, out);
+  return Intern(backend::CheckBlendDesc(desc, core->caps, core->log), core, core->blendStates, desc, out);
 }
 
 Status CreateDepthStencilState(const CorePtr& core, const DepthStencilDesc& desc, Ref<IDepthStencilState>* out) {
-  if (!Valid(desc.depthFunc) || !Valid(desc.front) || !Valid(desc.back))
-    return Invalid(*core, "a DepthStencilDesc has a comparison or operation that is none");
-  return Intern(core, core->depthStencilStates, desc, out);
+  return Intern(backend::CheckDepthStencilDesc(desc, core->log), core, core->depthStencilStates, desc, out);
 }
 
 Status CreateRasterizerState(const CorePtr& core, const RasterizerDesc& desc, Ref<IRasterizerState>* out) {
-  const bool valid = (desc.fill == FillMode::Solid || desc.fill == FillMode::Wireframe) &&
-                     InRange(uint32_t(desc.cull), uint32_t(CullMode::Back));
-  if (!valid) return Invalid(*core, "a RasterizerDesc has a fill or cull mode that is none");
-  if (desc.depthBiasClamp != 0 && !core->caps.depthBiasClamp)
-    return Lacking(*core, "RasterizerDesc::depthBiasClamp needs Caps::depthBiasClamp");
-  return Intern(core, core->rasterizerStates, desc, out);
+  return Intern(backend::CheckRasterizerDesc(desc, core->caps, core->log), core, core->rasterizerStates, desc, out);
 }
 
 Status CreateSamplerState(const CorePtr& core, const SamplerDesc& desc, Ref<ISamplerState>* out) {
-  if (!Valid(desc.u) || !Valid(desc.v) || !Valid(desc.w) || !Valid(desc.func))
-    return Invalid(*core, "a SamplerDesc has an address mode or comparison that is none");
-  if (desc.maxAniso < 1 || desc.maxAniso > 16) return Invalid(*core, "SamplerDesc::maxAniso must be 1 to 16");
-  return Intern(core, core->samplerStates, desc, out);
+  return Intern(backend::CheckSamplerDesc(desc, core->caps, core->log), core, core->samplerStates, desc, out);
 }
 
 }  // namespace rhi_gl

@@ -46,20 +46,19 @@ Status SwapChain::CreateBackBuffer(uint32_t width, uint32_t height) {
 Status SwapChain::Resize(uint32_t width, uint32_t height) {
   minimised_ = width == 0 || height == 0;
   if (minimised_) return Status::Ok;
-  if (!core_->context) return Status::DeviceLost;
+  if (!core_->context || !core_->Alive()) return Status::DeviceLost;
   return CreateBackBuffer(width, height);  // the surface follows its window by itself
 }
 
 Status SwapChain::Present() {
   Context* context = core_->context;
-  if (!context) return Status::DeviceLost;
+  if (!context || !core_->Alive()) return Status::DeviceLost;
   if (lost_) return Status::SurfaceLost;
   if (minimised_) return Status::Ok;
   const TextureDesc& d = backBuffer_->Desc();
   const int interval = desc_.vsync ? 1 : 0;
-  return context->ShowInWindow({desc_.nativeWindow, surface_, framebuffer_, d.width, d.height, interval})
-             ? Status::Ok
-             : LoseSurface();
+  const Status s = context->ShowInWindow({desc_.nativeWindow, surface_, framebuffer_, d.width, d.height, interval});
+  return s == Status::SurfaceLost ? LoseSurface() : s;
 }
 
 Status SwapChain::LoseSurface() {
@@ -69,12 +68,13 @@ Status SwapChain::LoseSurface() {
   return Status::SurfaceLost;
 }
 
-bool Context::ShowInWindow(const WindowPicture& from) {
-  OpenGates();
+Status Context::ShowInWindow(const WindowPicture& from) {
+  if (!OpenGates()) return Status::DeviceLost;
   // EGL does not tell; and to draw to a window that is gone may end the program by Xlib's error handler.
   XlibWindowInfo window;
   const auto id = static_cast<unsigned long>(reinterpret_cast<uintptr_t>(from.window));
-  if (!QueryXlibSize(core_.egl.NativeDisplay(), id, &window) || !core_.egl.MakeCurrentOn(from.surface)) return false;
+  if (!QueryXlibSize(core_.egl.NativeDisplay(), id, &window) || !core_.egl.MakeCurrentOn(from.surface))
+    return Status::SurfaceLost;
   core_.egl.SetSwapInterval(from.swapInterval);
   const bool same = window.width == from.width && window.height == from.height;
   glDisable(GL_FRAMEBUFFER_SRGB);  // the window gets the bits as they are
@@ -90,7 +90,7 @@ bool Context::ShowInWindow(const WindowPicture& from) {
   core_.egl.MakeCurrent();
   dirty_ |= backend::DirtyTargets;
   dirty_ |= backend::DirtyViewports | backend::DirtyScissors;  // Mesa sets both when a context first meets a surface
-  return shown;
+  return shown ? Status::Ok : Status::SurfaceLost;
 }
 
 }  // namespace rhi_gl

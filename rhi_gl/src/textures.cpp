@@ -13,6 +13,7 @@ Status CheckFormat(const Core& core, const TextureDesc& desc) {
   if ((desc.bind & Bind::RenderTarget) && !(support & FormatSupport::RenderTarget)) lacks = "render targets";
   if ((desc.bind & Bind::DepthStencil) && !(support & FormatSupport::DepthStencil)) lacks = "depth-stencil targets";
   if ((desc.bind & Bind::UnorderedAccess) && !(support & FormatSupport::UnorderedAccess)) lacks = "unordered access";
+  if (IsCompressed(desc.format) && desc.dim == TextureDim::Tex3D) lacks = "3D textures";
   if (desc.sampleCount > 1 && !SupportsSamples(desc.format, desc.sampleCount)) lacks = "that many samples";
   if (!lacks) return Status::Ok;
   core.log.Report(Severity::Error, MsgCode::CapMissing, desc.name, "%s does not offer %s here; see CheckFormatSupport",
@@ -27,7 +28,6 @@ Texture::Texture(const CorePtr& core, const TextureDesc& desc) : target(TargetOf
 Status Texture::Create(const CorePtr& core, const TextureDesc& wanted, const SubresourceData* init,
                        Ref<ITexture>* out) {
   TextureDesc desc = wanted;
-  core->Enter();
   if (Status s = CheckTextureDesc(&desc, init, core->caps, core->log); s != Status::Ok) return s;
   if (Status s = CheckFormat(*core, desc); s != Status::Ok) return s;
   auto texture = Ref<Texture>::Adopt(new Texture(core, desc));

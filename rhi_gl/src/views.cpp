@@ -38,7 +38,8 @@ Status MakeBufferView(const CorePtr& core, Buffer* buffer, const ViewDesc* wante
   return Status::Ok;
 }
 
-void UseGlView(ViewData& v) {
+void UseGlView(ViewData& v, bool asArray) {
+  v.target = asArray ? GLenum(GL_TEXTURE_2D_ARRAY) : GLenum(GL_NONE);
   v.name = MakeGlView(*v.texture, v.desc.format, v.desc.firstMip, v.desc.mipCount, v.desc.firstSlice, v.desc.sliceCount,
                       &v.target);
   v.owned = true;
@@ -48,19 +49,15 @@ void UseGlView(ViewData& v) {
 template <class V>
 Status MakeTextureView(const CorePtr& core, Texture* texture, const ViewDesc* wanted, Bind need, Ref<V>* out) {
   ViewDesc desc;
-  core->Enter();
   if (Status s = ResolveTextureView(texture->Desc(), wanted, need, &desc, core->log); s != Status::Ok) return s;
-  if (texture->Desc().dim == TextureDim::TexCube && desc.sliceCount != 6) {
-    core->log.Report(Severity::Error, MsgCode::InvalidDesc, texture->Desc().name,
-                     "a shader's view of a TexCube shows all six slices, not %u", desc.sliceCount);
-    return Status::InvalidArg;
-  }
   *out = NewView<V>(core, texture, desc);
   V& view = **out;
   view.texture = texture;
   view.name = texture->name;
   view.target = texture->target;
-  if (!IsWhole(*texture, desc)) UseGlView(view);
+  // HLSL has no RWTextureCube: what is written is an array of six slices.
+  const bool writableCube = need == Bind::UnorderedAccess && texture->Desc().dim == TextureDim::TexCube;
+  if (!IsWhole(*texture, desc) || writableCube) UseGlView(view, writableCube);
   return Status::Ok;
 }
 
@@ -68,7 +65,6 @@ Status MakeTextureView(const CorePtr& core, Texture* texture, const ViewDesc* wa
 template <class V>
 Status MakeTargetView(const CorePtr& core, Texture* texture, const ViewDesc* wanted, Bind need, Ref<V>* out) {
   ViewDesc desc;
-  core->Enter();
   if (Status s = ResolveTextureView(texture->Desc(), wanted, need, &desc, core->log); s != Status::Ok) return s;
   *out = NewView<V>(core, texture, desc);
   V& view = **out;
@@ -81,7 +77,7 @@ Status MakeTargetView(const CorePtr& core, Texture* texture, const ViewDesc* wan
   view.level = desc.firstMip;
   view.layer = desc.firstSlice;
   if (desc.format == t.format && (all || desc.sliceCount == 1)) return Status::Ok;
-  UseGlView(view);
+  UseGlView(view, false);
   view.level = view.layer = 0;
   return Status::Ok;
 }
@@ -101,8 +97,8 @@ ViewData::~ViewData() {
 
 GLuint MakeGlView(const Texture& t, Format format, uint32_t firstMip, uint32_t mipCount, uint32_t firstSlice,
                   uint32_t sliceCount, GLenum* target) {
-  *target = t.target;
-  if (t.target == GL_TEXTURE_CUBE_MAP && sliceCount != 6) *target = GL_TEXTURE_2D_ARRAY;
+  if (*target == GL_NONE)
+    *target = t.target == GL_TEXTURE_CUBE_MAP && sliceCount != 6 ? GLenum(GL_TEXTURE_2D_ARRAY) : t.target;
   GLuint name = 0;
   glGenTextures(1, &name);  // glTextureView wants a name without an object
   glTextureView(name, *target, t.name, GetGlFormat(format).internal, firstMip, mipCount, firstSlice, sliceCount);
@@ -127,15 +123,8 @@ Status CreateUnorderedAccessView(const CorePtr& core, IResource* resource, const
   Buffer* buffer = AsBuffer(resource);
   const Status s = buffer ? MakeBufferView(core, buffer, desc, Bind::UnorderedAccess, &view)
                           : MakeTextureView(core, AsTexture(resource), desc, Bind::UnorderedAccess, &view);
-  if (s != Status::Ok) return s;
-  if (!buffer && GetFormatInfo(view->desc.format).sRGB) {
-    core->log.Report(Severity::Error, MsgCode::CapMissing, view->texture->Desc().name,
-                     "%s has no unordered access; view it as %s", ToString(view->desc.format),
-                     ToString(ToLinear(view->desc.format)));
-    return Status::Unsupported;
-  }
-  *out = view;
-  return Status::Ok;
+  if (s == Status::Ok) *out = view;
+  return s;
 }
 
 Status CreateRenderTargetView(const CorePtr& core, ITexture* texture, const ViewDesc* desc,

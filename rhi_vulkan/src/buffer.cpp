@@ -1,7 +1,6 @@
 #include <cstring>
 
-#include "context_bits.h"
-#include "resources.h"
+#include "context.h"
 
 namespace rhi_vulkan {
 namespace {
@@ -55,6 +54,11 @@ Buffer::~Buffer() {
   gpu.Destroy(*core_);
 }
 
+void Buffer::Destroy() noexcept {
+  if (core_->context && (desc_.bind & Bind::ConstantBuffer)) core_->context->Disown(*this);
+  VkObject::Destroy();
+}
+
 void Buffer::SetName(const char* name) {
   backend::Object<IBuffer>::SetName(name);
   core_->SetName(VK_OBJECT_TYPE_BUFFER, uint64_t(gpu.handle), Name().c_str());
@@ -64,15 +68,16 @@ Status Buffer::Create() {
   if (desc_.usage == Usage::Dynamic) {
     alignedWidth = AlignUp(desc_.byteWidth, core_->ring->Alignment());
     dirtyOnDiscard = DirtyBitsOf(desc_.bind);
-    if (!core_->ring->Take(alignedWidth, &slice)) return Status::OutOfMemory;
+    if (!core_->ring->Take(alignedWidth, &slice)) return core_->Failure();
     core_->ring->Repin(nullptr, slice.page);
     std::memset(slice.Data(), 0, desc_.byteWidth);
     return Status::Ok;
   }
   const bool staging = desc_.usage == Usage::Staging;
-  // Constant buffers are read in rows of 16 bytes.
-  return gpu.Create(*core_, desc_.name, AlignUp(desc_.byteWidth, 16u), UsageOf(desc_),
-                    staging ? MemoryKind::Readback : MemoryKind::Gpu);
+  // Constant buffers are read in rows of 16 bytes. Others end where they end: drivers find vertices beyond by the
+  // buffer's size.
+  const uint32_t size = desc_.bind & Bind::ConstantBuffer ? AlignUp(desc_.byteWidth, 16u) : desc_.byteWidth;
+  return gpu.Create(*core_, desc_.name, size, UsageOf(desc_), staging ? MemoryKind::Readback : MemoryKind::Gpu);
 }
 
 }  // namespace rhi_vulkan

@@ -50,8 +50,9 @@ void FillIdentity(Caps& c, const VkPhysicalDeviceProperties& p, const VkPhysical
   c.apiMajor = VK_API_VERSION_MAJOR(p.apiVersion);
   c.apiMinor = VK_API_VERSION_MINOR(p.apiVersion);
   c.software = p.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-  // lavapipe's blob is a bare header.
-  c.pipelineCacheBlob = driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE;
+  // Theirs are bare headers, whatever pipelines there are (lavapipe of Mesa 22.3, SwiftShader of Chromium 156).
+  c.pipelineCacheBlob =
+      driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE && driver.driverID != VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
 }
 
 void FillLimits(Caps& c, const VkPhysicalDeviceLimits& l) {

@@ -5,12 +5,15 @@
 // SwitchPipeline; else PrepareDraw does the rest.
 #pragma once
 
+#include <optional>
+
 #include "barriers.h"
 #include "context_bits.h"
 #include "descriptors.h"
 #include "pipeline.h"
 #include "queries.h"
 #include "resources.h"
+#include "spirv.h"
 
 namespace rhi_vulkan {
 
@@ -36,6 +39,8 @@ struct Batch {
   uint64_t serial = 0;
   DescriptorArena sets;
 };
+
+inline constexpr uint32_t kNoStarts = ~0u;  // of the arguments of a dispatch
 
 // Stand-ins for registers with nothing bound.
 struct NullResources {
@@ -95,6 +100,7 @@ class Context final : public backend::ContextBase {
   // Brings a texture to an image of a window, scaled and converted where they differ, and submits.
   Status WriteWindowImage(Texture& from, const WindowImage& to, const PresentSync&);
   Stats TakeStats(bool reset);
+  void Disown(const Buffer&);  // nobody holds the constant buffer any more
 
  private:
   struct PendingClear {
@@ -162,7 +168,10 @@ class Context final : public backend::ContextBase {
   bool BindPipeline();
   PipelineKey CurrentKey() const;
   bool CheckIndexBuffer();
-  Buffer* PrepareIndirect(IBuffer*, uint32_t offset, uint32_t size);
+  // `startsAt`: where in the arguments the starts of vertices and instances are.
+  Buffer* PrepareIndirect(IBuffer*, uint32_t offset, uint32_t size, uint32_t startsAt);
+  void PushStarts(const DrawStarts&);
+  void CopyStarts(Buffer& args, uint32_t offset);
   void BindVertexBuffers();
   void BindIndexBuffer();
   // context_state.cpp
@@ -205,15 +214,12 @@ class Context final : public backend::ContextBase {
   Status MapTexture(Texture&, uint32_t subresource, MapMode, Mapped*);
   Status MapError(MsgCode, const char* object, const char* text);
   // context_upload.cpp
-  bool CheckUpdate(Usage, const char* name);
   void UpdateBuffer(Buffer&, const Box*, const void* data);
   void UpdateTexture(Texture&, uint32_t subresource, const Box*, const SubresourceData&);
   bool Upload(VkCommandBuffer, Texture&, uint32_t subresource, const Box&, const SubresourceData&);
   // context_copy.cpp
   void CopyBuffers(Buffer& dst, uint32_t x, Buffer& src, const Box*);
   void CopyTextures(const TextureRegion& dst, const TextureRegion& src, const Box*);
-  bool CheckCopy(const TextureRegion& dst, const TextureRegion& src, const Box& box);
-  bool CheckCopyDest(Usage, const char* name);
   void CopyImages(const TextureRegion& dst, const TextureRegion& src, const Box& box);
   void CopyImageAndBuffer(const TextureRegion& image, const TextureRegion& staging, const Box& box, bool toImage);
   void CopyStaging(const TextureRegion& dst, const TextureRegion& src, const Box& box);
@@ -231,10 +237,11 @@ class Context final : public backend::ContextBase {
   VkCommandBuffer cmd_ = VK_NULL_HANDLE;
   // Where the contents of b0..b3 are in their pages. A dynamic buffer writes its own entry when its contents move.
   std::array<uint32_t, kMaxConstantBuffers> constantOffsets_{};
-  std::array<Ref<IBuffer>, kMaxConstantBuffers> offsetOwners_;
+  std::array<Buffer*, kMaxConstantBuffers> offsetOwners_{};  // no references: a buffer that goes says so (Disown)
   VkDescriptorSet constantSet_ = VK_NULL_HANDLE;
   const Pipeline* pipeline_ = nullptr;
   bool inPass_ = false;
+  const bool emulateStarts_;  // see DrawStarts
 
   PipelineKey key_;
   std::array<const SetLayout*, 3> boundLayouts_{};
@@ -243,6 +250,7 @@ class Context final : public backend::ContextBase {
   std::vector<PendingClear> clears_;
   BarrierBatch barriers_;
   SetKey setKey_;
+  bool setIncomplete_ = false;  // no memory for the texture that stands in for an unbound one
   std::vector<VkWriteDescriptorSet> writes_;
   std::array<VkDescriptorImageInfo, 32> imageInfos_{};
   std::array<VkDescriptorBufferInfo, 32> bufferInfos_{};
@@ -253,6 +261,8 @@ class Context final : public backend::ContextBase {
   std::deque<uint64_t> frames_;  // last serials of the frames in flight
   uint32_t framesInFlight_;
   NullResources null_;
+  GpuBuffer starts_;                        // DrawStarts of the latest indirect draw, where they are emulated
+  std::optional<DrawStarts> pushedStarts_;  // none: nothing pushed in this command buffer
   VkPipelineStageFlags2 constantStages_ = 0;
   std::vector<MsgCode> reported_;
   std::vector<std::string> events_;  // begun and not ended

@@ -11,7 +11,7 @@ void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
 
 void Context::DispatchIndirect(IBuffer* args, uint32_t offset) {
   LeavePass();
-  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DispatchArgs));
+  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DispatchArgs), kNoStarts);
   if (!buffer || !PrepareDispatch()) return;
   vk_.vkCmdDispatchIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset);
   EndDispatch();
@@ -42,9 +42,10 @@ bool Context::PrepareDispatch() {
     if (constants) Use(static_cast<Buffer&>(*constants), UniformRead(StageBits(Stage::Compute)));
   RecordBarriers();
 
-  const std::array<VkDescriptorSet, 3> sets{
-      ConstantSet(), shader->layout->bindings.empty() ? VK_NULL_HANDLE : StageSet(Stage::Compute, *shader),
-      shader->uavLayout->bindings.empty() ? VK_NULL_HANDLE : UavSet(*shader)};
+  const bool hasInputs = !shader->layout->bindings.empty(), hasUavs = !shader->uavLayout->bindings.empty();
+  const std::array<VkDescriptorSet, 3> sets{ConstantSet(), hasInputs ? StageSet(Stage::Compute, *shader) : nullptr,
+                                            hasUavs ? UavSet(*shader) : nullptr};
+  if (!sets[0] || (hasInputs && !sets[1]) || (hasUavs && !sets[2])) return false;  // out of memory
   vk_.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_COMPUTE, shader->compute);
   for (uint32_t i = 0; i < sets.size(); ++i)
     if (sets[i])

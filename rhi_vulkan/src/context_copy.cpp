@@ -1,24 +1,13 @@
 // Copies, resolve, mips. None of them can be in a pass.
 #include "context.h"
 #include "formats.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_vulkan {
 namespace {
 
 VkOffset3D Offset(uint32_t x, uint32_t y, uint32_t z) { return {int32_t(x), int32_t(y), int32_t(z)}; }
 VkExtent3D Extent(const Box& b) { return {b.right - b.left, b.bottom - b.top, b.back - b.front}; }
-
-// One format group: texels (or blocks) of one size; depth formats only with themselves.
-bool SameGroup(Format a, Format b) {
-  const FormatInfo &x = GetFormatInfo(a), &y = GetFormatInfo(b);
-  if (x.depth || y.depth) return a == b;
-  return x.blockBytes == y.blockBytes && x.blockSize == y.blockSize;
-}
-
-bool Fits(const backend::MipLayout& m, uint32_t x, uint32_t y, uint32_t z, const VkExtent3D& e) {
-  return x <= m.width && e.width <= m.width - x && y <= m.height && e.height <= m.height - y && z <= m.depth &&
-         e.depth <= m.depth - z;
-}
 
 // Where a texel of a staging texture is.
 VkDeviceSize StagingAt(const Texture& t, uint32_t subresource, uint32_t x, uint32_t y, uint32_t z) {
@@ -44,51 +33,48 @@ void Context::FinishStaging(GpuBuffer& staging, bool written) {
   RecordBarriers();
 }
 
-bool Context::CheckCopyDest(Usage usage, const char* name) {
-  if (usage == Usage::Default || usage == Usage::Staging) return true;
-  Complain(usage == Usage::Immutable ? MsgCode::ImmutableWrite : MsgCode::MapMode, name,
-           "the destination of a copy must be of Usage::Default or Staging");
-  return false;
-}
-
 void Context::CopyResource(IResource* dst, IResource* src) {
-  if (!dst || !src || dst == src || core_->lost) return;
+  if (core_->lost) return;
+  if (!dst || !src) return Complain(MsgCode::InvalidDesc, "", "CopyResource: a resource is null; the call is ignored");
   Buffer *dstBuffer = AsBuffer(dst), *srcBuffer = AsBuffer(src);
-  if (!dstBuffer != !srcBuffer)
-    return Complain(MsgCode::FormatMismatch, "", "CopyResource between a buffer and a texture; it is ignored");
+  if (!dstBuffer != !srcBuffer) {
+    backend::CheckCopyKinds(dst->GetUsage()).Refuses(log_, "");
+    return;
+  }
   if (dstBuffer) {
-    if (dstBuffer->Desc().byteWidth != srcBuffer->Desc().byteWidth)
-      return Complain(MsgCode::FormatMismatch, dstBuffer->Name().c_str(), "CopyResource needs buffers of one size");
-    return CopyBuffers(*dstBuffer, 0, *srcBuffer, nullptr);
+    const backend::Misuse misuse = backend::CheckCopyAll(dstBuffer->Desc(), srcBuffer->Desc(), dst == src);
+    if (!misuse.Refuses(log_, dstBuffer->Name().c_str())) CopyBuffers(*dstBuffer, 0, *srcBuffer, nullptr);
+    return;
   }
   auto &to = static_cast<Texture&>(*dst), &from = static_cast<Texture&>(*src);
-  const TextureDesc &a = to.Desc(), &b = from.Desc();
-  if (a.width != b.width || a.height != b.height || a.depthOrArray != b.depthOrArray || a.mipLevels != b.mipLevels)
-    return Complain(MsgCode::FormatMismatch, to.Name().c_str(),
-                    "CopyResource needs textures of one size and mip count");
+  if (backend::CheckCopyAll(to.Desc(), from.Desc(), dst == src).Refuses(log_, to.Name().c_str())) return;
   for (uint32_t i = 0; i < to.SubresourceCount(); ++i) CopyTextures({&to, i, 0, 0, 0}, {&from, i, 0, 0, 0}, nullptr);
 }
 
 void Context::CopySubresourceRegion(IResource* dst, uint32_t dstSubresource, uint32_t x, uint32_t y, uint32_t z,
                                     IResource* src, uint32_t srcSubresource, const Box* box) {
-  if (!dst || !src || core_->lost) return;
+  if (core_->lost) return;
+  if (!dst || !src)
+    return Complain(MsgCode::InvalidDesc, "", "CopySubresourceRegion: a resource is null; the call is ignored");
   Buffer *dstBuffer = AsBuffer(dst), *srcBuffer = AsBuffer(src);
-  if (!dstBuffer != !srcBuffer)
-    return Complain(MsgCode::FormatMismatch, "", "CopySubresourceRegion between a buffer and a texture; it is ignored");
-  if (dstBuffer) return CopyBuffers(*dstBuffer, x, *srcBuffer, box);
-  CopyTextures({static_cast<Texture*>(dst), dstSubresource, x, y, z},
-               {static_cast<Texture*>(src), srcSubresource, 0, 0, 0}, box);
+  if (!dstBuffer != !srcBuffer) {
+    backend::CheckCopyKinds(dst->GetUsage()).Refuses(log_, "");
+    return;
+  }
+  if (dstBuffer) {
+    const backend::Misuse misuse = backend::CheckCopy(dstBuffer->Desc(), x, srcBuffer->Desc(), box, dst == src);
+    if (!misuse.Refuses(log_, dstBuffer->Name().c_str())) CopyBuffers(*dstBuffer, x, *srcBuffer, box);
+    return;
+  }
+  auto &to = static_cast<Texture&>(*dst), &from = static_cast<Texture&>(*src);
+  const backend::Misuse misuse =
+      backend::CheckCopy({to.Desc(), dstSubresource, x, y, z}, {from.Desc(), srcSubresource}, box, dst == src);
+  if (misuse.Refuses(log_, to.Name().c_str())) return;
+  CopyTextures({&to, dstSubresource, x, y, z}, {&from, srcSubresource, 0, 0, 0}, box);
 }
 
 void Context::CopyBuffers(Buffer& dst, uint32_t x, Buffer& src, const Box* box) {
   const uint32_t left = box ? box->left : 0, right = box ? box->right : src.Desc().byteWidth;
-  if (!CheckCopyDest(dst.GetUsage(), dst.Name().c_str())) return;
-  if (left > right || right > src.Desc().byteWidth || x > dst.Desc().byteWidth ||
-      right - left > dst.Desc().byteWidth - x)
-    return Complain(MsgCode::OutOfBounds, dst.Name().c_str(),
-                    "a copy reaches beyond the end of a buffer; it is ignored");
-  const bool overlaps = &dst == &src && x < right && left < x + (right - left);
-  if (overlaps) return Complain(MsgCode::OutOfBounds, dst.Name().c_str(), "a copy overlaps itself; it is ignored");
   if (left == right) return;
   LeavePass();
   if (&dst == &src) {  // one barrier for both sides
@@ -106,36 +92,10 @@ void Context::CopyBuffers(Buffer& dst, uint32_t x, Buffer& src, const Box* box) 
   if (dst.GetUsage() == Usage::Staging) FinishStaging(dst.gpu, true);
 }
 
-bool Context::CheckCopy(const TextureRegion& dst, const TextureRegion& src, const Box& box) {
-  const Texture &to = *dst.texture, &from = *src.texture;
-  const TextureDesc &a = to.Desc(), &b = from.Desc();
-  if (!SameGroup(a.format, b.format) || a.sampleCount != b.sampleCount) {
-    Complain(MsgCode::FormatMismatch, to.Name().c_str(),
-             "a copy needs one format group and one sample count; it is ignored");
-    return false;
-  }
-  const bool ordered = box.left <= box.right && box.top <= box.bottom && box.front <= box.back;
-  if (!ordered ||
-      !Fits(backend::GetMipLayout(b, from.One(src.subresource).mip), box.left, box.top, box.front, Extent(box)) ||
-      !Fits(backend::GetMipLayout(a, to.One(dst.subresource).mip), dst.x, dst.y, dst.z, Extent(box))) {
-    Complain(MsgCode::OutOfBounds, to.Name().c_str(),
-             "a copy reaches beyond the edges of a subresource; it is ignored");
-    return false;
-  }
-  if (&to == &from && dst.subresource == src.subresource) {
-    Complain(MsgCode::OutOfBounds, to.Name().c_str(), "a copy within one subresource; it is ignored");
-    return false;
-  }
-  return CheckCopyDest(to.GetUsage(), to.Name().c_str());
-}
-
 void Context::CopyTextures(const TextureRegion& dst, const TextureRegion& src, const Box* box) {
-  if (dst.subresource >= dst.texture->SubresourceCount() || src.subresource >= src.texture->SubresourceCount())
-    return Complain(MsgCode::SubresourceOutOfRange, dst.texture->Name().c_str(),
-                    "a copy of a subresource that is not there");
   const backend::MipLayout m = backend::GetMipLayout(src.texture->Desc(), src.texture->One(src.subresource).mip);
   const Box b = box ? *box : Box{0, 0, 0, m.width, m.height, m.depth};
-  if (!CheckCopy(dst, src, b) || b.left == b.right || b.top == b.bottom || b.front == b.back) return;
+  if (b.left == b.right || b.top == b.bottom || b.front == b.back) return;
   const TextureRegion from{src.texture, src.subresource, b.left, b.top, b.front};
   LeavePass();
   const bool toStaging = dst.texture->IsStaging(), fromStaging = src.texture->IsStaging();
@@ -206,21 +166,14 @@ void Context::CopyStaging(const TextureRegion& dst, const TextureRegion& src, co
 
 void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITexture* src, uint32_t srcSubresource,
                                  Format format) {
-  if (!dst || !src || core_->lost) return;
+  if (core_->lost) return;
+  if (!dst || !src)
+    return Complain(MsgCode::InvalidDesc, "", "ResolveSubresource: a texture is null; the call is ignored");
   auto &to = static_cast<Texture&>(*dst), &from = static_cast<Texture&>(*src);
-  const char* name = to.Name().c_str();
-  if (dstSubresource >= to.SubresourceCount() || srcSubresource >= from.SubresourceCount())
-    return Complain(MsgCode::SubresourceOutOfRange, name, "ResolveSubresource of a subresource that is not there");
-  const TextureDesc &a = to.Desc(), &b = from.Desc();
-  const backend::MipLayout m = backend::GetMipLayout(a, to.One(dstSubresource).mip);
-  const bool formats = a.format == b.format && format == a.format && !GetFormatInfo(format).depth;
-  if (!formats || b.sampleCount < 2 || a.sampleCount != 1 || m.width != b.width || m.height != b.height ||
-      to.IsStaging())
-    return Complain(
-        MsgCode::FormatMismatch, name,
-        "ResolveSubresource needs a multisampled source, a single-sampled Default destination of its size, and "
-        "one colour format for both and in the call");
-  if (!CheckCopyDest(to.GetUsage(), name)) return;
+  const backend::Misuse misuse =
+      backend::CheckResolve({to.Desc(), dstSubresource}, {from.Desc(), srcSubresource}, format);
+  if (misuse.Refuses(log_, to.Name().c_str())) return;
+  const backend::MipLayout m = backend::GetMipLayout(to.Desc(), to.One(dstSubresource).mip);
   LeavePass();
   Use(from, from.One(srcSubresource), kCopySource);
   Use(to, to.One(dstSubresource), kCopyDest);
@@ -234,7 +187,9 @@ void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITextur
 
 void Context::GenerateMips(IShaderResourceView* target) {
   auto* view = static_cast<ShaderView*>(target);
-  if (!view || !view->texture || core_->lost) return;
+  if (core_->lost) return;
+  if (!view || !view->texture)
+    return Complain(MsgCode::InvalidDesc, "", "GenerateMips needs a view of a texture; the call is ignored");
   Texture& t = *view->texture;
   if (!(t.Desc().bind & Bind::RenderTarget) || !(t.Desc().bind & Bind::ShaderResource))
     return Complain(MsgCode::WrongBindFlag, t.Name().c_str(),

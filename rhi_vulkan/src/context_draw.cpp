@@ -1,4 +1,6 @@
 // Draws: the short way (nothing changed, or only constants) and PrepareDraw.
+#include <cstddef>
+
 #include "context.h"
 
 namespace rhi_vulkan {
@@ -25,12 +27,16 @@ constexpr uint32_t kDirtyChecks = backend::DirtyShaders | backend::DirtyLayout |
 
 void Context::Draw(uint32_t vertexCount, uint32_t startVertex) {
   if (!ReadyToDraw()) return;
+  if (emulateStarts_) [[unlikely]]
+    PushStarts({startVertex, 0});
   vk_.vkCmdDraw(cmd_, vertexCount, 1, startVertex, 0);
   ++stats_.draws;
 }
 
 void Context::DrawIndexed(uint32_t indexCount, uint32_t startIndex, int32_t baseVertex) {
   if (!CheckIndexBuffer() || !ReadyToDraw()) return;
+  if (emulateStarts_) [[unlikely]]
+    PushStarts({uint32_t(baseVertex), 0});
   vk_.vkCmdDrawIndexed(cmd_, indexCount, 1, startIndex, baseVertex, 0);
   ++stats_.draws;
 }
@@ -38,6 +44,8 @@ void Context::DrawIndexed(uint32_t indexCount, uint32_t startIndex, int32_t base
 void Context::DrawInstanced(uint32_t vertexCountPerInstance, uint32_t instanceCount, uint32_t startVertex,
                             uint32_t startInstance) {
   if (!ReadyToDraw()) return;
+  if (emulateStarts_) [[unlikely]]
+    PushStarts({startVertex, startInstance});
   vk_.vkCmdDraw(cmd_, vertexCountPerInstance, instanceCount, startVertex, startInstance);
   ++stats_.draws;
 }
@@ -45,21 +53,25 @@ void Context::DrawInstanced(uint32_t vertexCountPerInstance, uint32_t instanceCo
 void Context::DrawIndexedInstanced(uint32_t indexCountPerInstance, uint32_t instanceCount, uint32_t startIndex,
                                    int32_t baseVertex, uint32_t startInstance) {
   if (!CheckIndexBuffer() || !ReadyToDraw()) return;
+  if (emulateStarts_) [[unlikely]]
+    PushStarts({uint32_t(baseVertex), startInstance});
   vk_.vkCmdDrawIndexed(cmd_, indexCountPerInstance, instanceCount, startIndex, baseVertex, startInstance);
   ++stats_.draws;
 }
 
 void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
-  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawArgs));
+  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawArgs), offsetof(DrawArgs, startVertex));
   if (!buffer || !ReadyToDraw()) return;
+  if (emulateStarts_) PushStarts({0, 0, 1});
   vk_.vkCmdDrawIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset, 1, 0);
   ++stats_.draws;
 }
 
 void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
   if (!CheckIndexBuffer()) return;
-  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawIndexedArgs));
+  Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawIndexedArgs), offsetof(DrawIndexedArgs, baseVertex));
   if (!buffer || !ReadyToDraw()) return;
+  if (emulateStarts_) PushStarts({0, 0, 1});
   vk_.vkCmdDrawIndexedIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset, 1, 0);
   ++stats_.draws;
 }
@@ -72,7 +84,7 @@ bool Context::CheckIndexBuffer() {
   return false;
 }
 
-Buffer* Context::PrepareIndirect(IBuffer* args, uint32_t offset, uint32_t size) {
+Buffer* Context::PrepareIndirect(IBuffer* args, uint32_t offset, uint32_t size, uint32_t startsAt) {
   auto* buffer = static_cast<Buffer*>(args);
   if (!buffer || !(buffer->Desc().bind & Bind::IndirectArgs)) {
     Report(Severity::Error, MsgCode::WrongBindFlag, buffer ? buffer->Name().c_str() : "",
@@ -84,9 +96,33 @@ Buffer* Context::PrepareIndirect(IBuffer* args, uint32_t offset, uint32_t size) 
            "indirect arguments reach beyond the buffer, or the offset is no multiple of 4; the call is skipped");
     return nullptr;
   }
+  if (emulateStarts_ && startsAt < size) CopyStarts(*buffer, offset + startsAt);
   Use(*buffer, kIndirectRead);
   RecordBarriers();
   return buffer;
+}
+
+void Context::PushStarts(const DrawStarts& starts) {
+  if (pushedStarts_ == starts) return;
+  pushedStarts_ = starts;
+  vk_.vkCmdPushConstants(cmd_, pipeline_->layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof starts, &starts);
+}
+
+// Only the GPU knows where an indirect draw starts, and only a copy brings that to the shader: at the cost of a pass.
+void Context::CopyStarts(Buffer& args, uint32_t offset) {
+  static_assert(offsetof(DrawArgs, startInstance) == offsetof(DrawArgs, startVertex) + 4);
+  static_assert(offsetof(DrawIndexedArgs, startInstance) == offsetof(DrawIndexedArgs, baseVertex) + 4);
+  const auto* vs = static_cast<const Shader*>(state_.shaders[size_t(Stage::Vertex)].get());
+  if (!vs || !(vs->reflection.usesVertexId || vs->reflection.usesInstanceId)) return;
+  LeavePass();
+  Use(args, kCopySource);
+  starts_.state.readStages |= StageBits(Stage::Vertex);  // of direct draws, which look at it too and do not say so
+  UseStaging(starts_, kCopyDest);
+  RecordBarriers();
+  const VkBufferCopy region{args.Offset() + offset, 0, 2 * sizeof(uint32_t)};
+  vk_.vkCmdCopyBuffer(cmd_, args.Handle(), starts_.handle, 1, &region);
+  UseStaging(starts_, UniformRead(StageBits(Stage::Vertex)));
+  RecordBarriers();
 }
 
 // Other shaders or blending, and nothing else: with the same pipeline layout the shaders read the same registers, so
@@ -232,9 +268,10 @@ bool Context::BindPipeline() {
                             static_cast<const InputLayout*>(state_.layout.get()), blend ? &blend->Desc() : nullptr};
   const Pipeline& pipeline = core_->pipelines->Get(key, parts);
   if (!pipeline.handle) {
+    pipeline_ = nullptr;
+    if (pipeline.status == Status::OutOfMemory || pipeline.status == Status::DeviceLost) return false;
     Report(Severity::Error, MsgCode::ShaderRejected, parts.vs->Name().c_str(),
            "the driver refused the pipeline of this draw; it is skipped");
-    pipeline_ = nullptr;
     return false;
   }
   vk_.vkCmdBindPipeline(cmd_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_vulkan {
 
@@ -38,15 +39,8 @@ void Context::UpdateConstants(IBuffer* target, const void* data, uint32_t size) 
 // UpdateConstants where the current page is full, or the arguments are wrong.
 void Context::UpdateInNewPage(Buffer* buffer, const void* data, uint32_t size) {
   if (!buffer) return Report(Severity::Error, MsgCode::NothingBound, "", "UpdateConstants of no buffer");
-  const bool tooLarge = size > buffer->Desc().byteWidth;
-  if ((buffer->dirtyOnDiscard & kDirtyOffsets) && !tooLarge) {
-    if (DiscardInNewPage(*buffer)) std::memcpy(buffer->slice.Data(), data, size);
-    return;
-  }
-  char text[160];
-  std::snprintf(text, sizeof text, "UpdateConstants needs a Dynamic constant buffer of at least %u bytes; this has %u",
-                size, buffer->Desc().byteWidth);
-  Report(Severity::Error, tooLarge ? MsgCode::OutOfBounds : MsgCode::MapMode, buffer->Name().c_str(), text);
+  if (backend::CheckUpdateConstants(buffer->Desc(), size).Refuses(log_, buffer->Name().c_str())) return;
+  if (DiscardInNewPage(*buffer)) std::memcpy(buffer->slice.Data(), data, size);
 }
 
 Status Context::MapError(MsgCode code, const char* object, const char* text) {
@@ -55,24 +49,20 @@ Status Context::MapError(MsgCode code, const char* object, const char* text) {
 }
 
 Status Context::Map(IResource* resource, uint32_t subresource, MapMode mode, Mapped* out) {
-  if (!resource || !out) return Status::InvalidArg;
+  if (!out) return Status::InvalidArg;
   *out = {};
   if (core_->lost) return Status::DeviceLost;
+  if (!resource) return MapError(MsgCode::InvalidDesc, "", "Map: the resource is null");
   if (auto* buffer = AsBuffer(resource)) return MapBuffer(*buffer, mode, out);
   return MapTexture(static_cast<Texture&>(*resource), subresource, mode, out);
 }
 
 Status Context::MapBuffer(Buffer& buffer, MapMode mode, Mapped* out) {
   const char* name = buffer.Name().c_str();
+  if (backend::CheckMap(buffer.Desc(), mode).Refuses(log_, name)) return Status::InvalidArg;
   if (buffer.mapped) return MapError(MsgCode::MapTwice, name, "the buffer is mapped already; call Unmap first");
-  const bool discard = mode == MapMode::WriteDiscard, append = mode == MapMode::WriteNoOverwrite;
-  if (buffer.GetUsage() == Usage::Immutable)
-    return MapError(MsgCode::ImmutableWrite, name, "an Immutable buffer cannot be mapped");
-  if (buffer.IsDynamic() != (discard || append) || (!buffer.IsDynamic() && buffer.GetUsage() != Usage::Staging))
-    return MapError(
-        MsgCode::MapMode, name,
-        "Dynamic buffers are mapped with WriteDiscard or WriteNoOverwrite, Staging ones with Read or Write");
-  if (discard && !Discard(buffer)) return Status::OutOfMemory;
+  const bool discard = mode == MapMode::WriteDiscard;
+  if (discard && !Discard(buffer)) return core_->Failure();
   if (buffer.IsDynamic()) {
     out->data = buffer.slice.Data();
   } else {
@@ -86,12 +76,7 @@ Status Context::MapBuffer(Buffer& buffer, MapMode mode, Mapped* out) {
 
 Status Context::MapTexture(Texture& texture, uint32_t subresource, MapMode mode, Mapped* out) {
   const char* name = texture.Name().c_str();
-  if (texture.GetUsage() == Usage::Immutable)
-    return MapError(MsgCode::ImmutableWrite, name, "an Immutable texture cannot be mapped");
-  if (!texture.IsStaging() || (mode != MapMode::Read && mode != MapMode::Write))
-    return MapError(MsgCode::MapMode, name, "only Staging textures are mapped, with Read or Write");
-  if (subresource >= texture.SubresourceCount())
-    return MapError(MsgCode::SubresourceOutOfRange, name, "Map of a subresource that the texture does not have");
+  if (backend::CheckMap(texture.Desc(), subresource, mode).Refuses(log_, name)) return Status::InvalidArg;
   if (texture.mapped[subresource])
     return MapError(MsgCode::MapTwice, name, "the subresource is mapped already; call Unmap first");
   if (Status s = WaitForSerial(texture.staging.lastUse); s != Status::Ok) return s;
@@ -102,7 +87,10 @@ Status Context::MapTexture(Texture& texture, uint32_t subresource, MapMode mode,
 }
 
 void Context::Unmap(IResource* resource, uint32_t subresource) {
-  if (!resource) return;
+  if (!resource) {
+    MapError(MsgCode::InvalidDesc, "", "Unmap: the resource is null; the call is ignored");
+    return;
+  }
   bool wasMapped = false;
   if (auto* buffer = AsBuffer(resource)) {
     wasMapped = std::exchange(buffer->mapped, false);

@@ -151,7 +151,7 @@ void Context::BeginPass(const PassTargets& targets) {
 
 void Context::ClearRenderTargetView(IRenderTargetView* target, const float rgba[4]) {
   auto* view = static_cast<TargetView*>(target);
-  if (!view) return;
+  if (!view) return Complain(MsgCode::InvalidDesc, "", "ClearRenderTargetView of no view; it is ignored");
   PendingClear clear{Ref<IView>(view),
                      view->texture,
                      view->Range(),
@@ -167,7 +167,7 @@ void Context::ClearRenderTargetView(IRenderTargetView* target, const float rgba[
 void Context::ClearDepthStencilView(IDepthStencilView* target, bool clearDepth, float depth, bool clearStencil,
                                     uint8_t stencil) {
   auto* view = static_cast<DepthView*>(target);
-  if (!view) return;
+  if (!view) return Complain(MsgCode::InvalidDesc, "", "ClearDepthStencilView of no view; it is ignored");
   VkImageAspectFlags aspects = 0;
   if (clearDepth) aspects |= VK_IMAGE_ASPECT_DEPTH_BIT;
   if (clearStencil) aspects |= VK_IMAGE_ASPECT_STENCIL_BIT;
@@ -186,6 +186,7 @@ void Context::ClearDepthStencilView(IDepthStencilView* target, bool clearDepth, 
 }
 
 void Context::AddClear(PendingClear clear) {
+  if (core_->lost) return;
   if (inPass_ && ClearInPass(clear)) return;
   for (PendingClear& old : clears_) {
     if (old.view == clear.view) {  // the later clear of an aspect counts

@@ -36,8 +36,9 @@ void Context::StopSegments() {
 
 void Context::Begin(IQuery* target) {
   auto* query = static_cast<Query*>(target);
-  if (!query) return;
-  if (query->Type() == QueryType::TimestampDisjoint) {  // Vulkan's timestamps are never disjoint
+  if (!query) return Complain(MsgCode::QueryOrder, "", "Begin of no query; it is ignored");
+  const bool disjoint = query->Type() == QueryType::TimestampDisjoint;  // Vulkan's timestamps never are
+  if (disjoint && !query->active) {
     query->active = true;
     return;
   }
@@ -56,7 +57,7 @@ void Context::Begin(IQuery* target) {
 
 void Context::End(IQuery* target) {
   auto* query = static_cast<Query*>(target);
-  if (!query) return;
+  if (!query) return Complain(MsgCode::QueryOrder, "", "End of no query; it is ignored");
   const bool needsBegin = IsRange(query->Type()) || query->Type() == QueryType::TimestampDisjoint;
   if (needsBegin && !query->active) {
     log_.Report(Severity::Error, MsgCode::QueryOrder, query->Name().c_str(),
@@ -79,18 +80,23 @@ void Context::End(IQuery* target) {
 
 Status Context::GetData(IQuery* target, void* data, uint32_t size, bool flush) {
   auto* query = static_cast<Query*>(target);
+  if (core_->lost) return Status::DeviceLost;
   if (!query || query->active || query->serial == 0) {
     log_.Report(Severity::Error, MsgCode::QueryOrder, query ? query->Name().c_str() : "",
                 "GetData before End; there is nothing to wait for");
     return Status::InvalidArg;
   }
-  if (core_->lost) return Status::DeviceLost;
+  if (data && size != query->ResultSize()) {
+    log_.Report(Severity::Error, MsgCode::OutOfBounds, query->Name().c_str(),
+                "GetData: %u bytes given, the result has %u", size, query->ResultSize());
+    return Status::InvalidArg;
+  }
   if (query->serial == core_->recording) {
     if (!flush) return Status::StillDrawing;
     Flush();
   }
   if (core_->Completed() < query->serial) return core_->lost ? Status::DeviceLost : Status::StillDrawing;
-  return query->Read(*core_->queries, data, size);
+  return query->Read(*core_->queries, data);
 }
 
 }  // namespace rhi_vulkan

@@ -20,7 +20,7 @@ bool Context::BindConstants() {
 // the other, because then every discard looks for the set again.
 void Context::OwnOffset(uint32_t slot, Buffer* buffer) {
   uint32_t* entry = &constantOffsets_[slot];
-  auto* old = static_cast<Buffer*>(offsetOwners_[slot].get());
+  Buffer* old = offsetOwners_[slot];
   if (old && old != buffer && old->offsetEntry == entry) old->offsetEntry = &old->unboundOffset;
   *entry = buffer ? buffer->slice.offset : 0;
   if (buffer && buffer->IsDynamic()) {
@@ -28,7 +28,12 @@ void Context::OwnOffset(uint32_t slot, Buffer* buffer) {
     buffer->dirtyOnDiscard = kDirtyOffsets | (elsewhere ? uint32_t(backend::DirtyConstants) : 0u);
     buffer->offsetEntry = entry;
   }
-  offsetOwners_[slot] = Ref<IBuffer>(buffer);
+  offsetOwners_[slot] = buffer;
+}
+
+void Context::Disown(const Buffer& buffer) {
+  for (Buffer*& owner : offsetOwners_)
+    if (owner == &buffer) owner = nullptr;
 }
 
 // The set for the buffers (or ring pages) in b0..b3; also notes their offsets.
@@ -43,6 +48,10 @@ VkDescriptorSet Context::ConstantSet() {
     const uint32_t range = buffer ? AlignUp(buffer->Desc().byteWidth, 16u) : kMaxConstantBufferBytes;
     AddBuffer(i, handle, 0, range, !buffer ? 0 : buffer->IsDynamic() ? buffer->slice.page->id : buffer->id);
     writes_.back().descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
+  }
+  if (emulateStarts_) {
+    AddBuffer(kStartsBinding, starts_.handle, 0, sizeof(DrawStarts), 0);
+    writes_.back().descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   }
   bool isNew = false;
   const VkDescriptorSet set = batch_->sets.Find(*core_->layouts->Constants(), setKey_, &isNew);
@@ -96,6 +105,7 @@ void Context::AddResource(Stage stage, const ShaderResource& r) {
   if (wantsTexture) {
     const bool depth = view && GetFormatInfo(view->Desc().format).depth;
     const VkImageView handle = view ? view->view : NullView(r.dim, r.integer);
+    setIncomplete_ = setIncomplete_ || (!handle && !core_->adapter.features.nullDescriptor);
     AddImage(binding, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, handle, SampledRead(stage, depth).layout, view ? view->id : 0);
     return;
   }
@@ -120,8 +130,10 @@ VkDescriptorSet Context::StageSet(Stage stage, const Shader& shader) {
   writes_.clear();
   setKey_.Clear();
   setKey_.Add(uint64_t(reinterpret_cast<uintptr_t>(shader.layout)));  // layouts live as long as the device
+  setIncomplete_ = false;
   for (const ShaderResource& r : shader.reflection.resources)
     if (r.kind == ShaderResourceKind::Texture || r.kind == ShaderResourceKind::StructuredBuffer) AddResource(stage, r);
+  if (setIncomplete_) return VK_NULL_HANDLE;
   for (const ShaderSampler& s : shader.reflection.samplers) AddSampler(stage, s);
   bool isNew = false;
   const VkDescriptorSet set = batch_->sets.Find(*shader.layout, setKey_, &isNew);
@@ -211,7 +223,7 @@ VkImageView Context::NullView(TextureDim dim, bool integer) {
   barriers.Record(vk_, Setup());
   ViewDesc viewDesc;
   backend::ResolveTextureView(desc, nullptr, Bind::ShaderResource, &viewDesc, log_);
-  CreateImageView(*core_, made, viewDesc, Bind::ShaderResource, &view);
+  core_->Check(CreateImageView(*core_, made, viewDesc, Bind::ShaderResource, &view), desc.name, "vkCreateImageView");
   return view;
 }
 

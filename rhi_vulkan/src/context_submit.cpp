@@ -10,10 +10,11 @@ namespace {
 // More submissions than this in flight, and the oldest is waited for: a program that only calls Flush must not grow.
 constexpr size_t kMaxBatches = 16;
 
-void BeginCommands(const VolkDeviceTable& vk, VkCommandBuffer cmd) {
+void BeginCommands(Core& core, VkCommandBuffer cmd) {
   VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  vk.vkBeginCommandBuffer(cmd, &info);
+  if (const VkResult r = core.vk.vkBeginCommandBuffer(cmd, &info); r != VK_SUCCESS)
+    core.Lose(r, "vkBeginCommandBuffer");
 }
 
 }  // namespace
@@ -44,6 +45,7 @@ Context::Context(VulkanDevice& device, std::shared_ptr<Core> core, uint32_t fram
       core_(std::move(core)),
       vk_(core_->vk),
       ring_(*core_->ring),
+      emulateStarts_(!core_->adapter.features.drawParameters),
       framesInFlight_(std::max(1u, framesInFlight)) {
   constantStages_ = StageBits(Stage::Vertex) | StageBits(Stage::Pixel);
   if (core_->adapter.caps.geometryShader) constantStages_ |= StageBits(Stage::Geometry);
@@ -62,6 +64,7 @@ Context::~Context() {
       if (view) vk_.vkDestroyImageView(core_->device, view, nullptr);
   null_.zeros.Destroy(*core_);
   null_.sink.Destroy(*core_);
+  starts_.Destroy(*core_);
 }
 
 Status Context::Init() {
@@ -72,31 +75,45 @@ Status Context::Init() {
     if (s != Status::Ok) return s;
     std::memset(buffer->memory.mapped, 0, kMaxConstantBufferBytes);
   }
+  if (emulateStarts_) {
+    const Status s =
+        starts_.Create(*core_, "rhi draw starts", sizeof(DrawStarts),
+                       VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::Upload);
+    if (s != Status::Ok) return s;
+    std::memset(starts_.memory.mapped, 0, sizeof(DrawStarts));
+  }
   if (Status s = device_.CreateSamplerState({}, &null_.sampler); s != Status::Ok) return s;
   return BeginBatch();
 }
 
 Status Context::BeginBatch() {
   RecycleBatches();
-  if (!idle_.empty()) {
-    batch_ = std::move(idle_.back());
-    idle_.pop_back();
-  } else {
-    batch_ = std::make_unique<Batch>(*core_);
-    if (Status s = batch_->Create(); s != Status::Ok) return s;
+  if (idle_.empty()) {
+    auto fresh = std::make_unique<Batch>(*core_);
+    const Status s = fresh->Create();
+    if (s != Status::Ok && inFlight_.empty()) return s;
+    if (s == Status::Ok) {
+      idle_.push_back(std::move(fresh));
+    } else {  // then one that the GPU is done with serves again
+      core_->Wait(inFlight_.back()->serial);
+      RecycleBatches();
+    }
   }
+  batch_ = std::move(idle_.back());
+  idle_.pop_back();
   batch_->serial = core_->recording;
   batch_->setupBegun = false;
   cmd_ = batch_->main;
-  BeginCommands(vk_, cmd_);
+  BeginCommands(*core_, cmd_);
   // A new command buffer knows no state.
   dirty_ = backend::DirtyAll;
   pipeline_ = nullptr;
   boundLayouts_ = {};
   boundSets_ = {};
   constantSet_ = VK_NULL_HANDLE;
+  pushedStarts_.reset();
   for (const std::string& event : events_) OpenEvent(event);
-  return Status::Ok;
+  return core_->lost ? Status::DeviceLost : Status::Ok;
 }
 
 void Context::RecycleBatches() {
@@ -105,7 +122,8 @@ void Context::RecycleBatches() {
   while (!inFlight_.empty() && inFlight_.front()->serial <= core_->Completed()) {
     Batch& done = *inFlight_.front();
     // At once: drivers that keep each command in memory of its own then fill the same memory again and again.
-    vk_.vkResetCommandPool(core_->device, done.pool, 0);
+    const VkResult reset = vk_.vkResetCommandPool(core_->device, done.pool, 0);
+    if (reset != VK_SUCCESS) core_->Lose(reset, "vkResetCommandPool");
     done.sets.Reset();
     idle_.push_back(std::move(inFlight_.front()));
     inFlight_.pop_front();
@@ -113,15 +131,15 @@ void Context::RecycleBatches() {
 }
 
 VkCommandBuffer Context::Setup() {
-  if (!batch_->setupBegun) BeginCommands(vk_, batch_->setup);
+  if (!batch_->setupBegun) BeginCommands(*core_, batch_->setup);
   batch_->setupBegun = true;
   return batch_->setup;
 }
 
 void Context::Flush() { SubmitAll(); }
 
+// A lost device goes through the same motions, so that a program that draws on does not fill the memory.
 Status Context::SubmitAll(const PresentSync& present) {
-  if (core_->lost) return Status::DeviceLost;
   EndPass(false);
   FlushClears(nullptr);
   RecordBarriers();
@@ -132,7 +150,8 @@ Status Context::SubmitAll(const PresentSync& present) {
   uint32_t count = 0;
   if (batch_->setupBegun) commands[count++] = batch_->setup;
   commands[count++] = batch_->main;
-  for (uint32_t i = 0; i < count; ++i) core_->Check(vk_.vkEndCommandBuffer(commands[i]), "", "vkEndCommandBuffer");
+  for (uint32_t i = 0; i < count; ++i)
+    if (const VkResult r = vk_.vkEndCommandBuffer(commands[i]); r != VK_SUCCESS) core_->Lose(r, "vkEndCommandBuffer");
   const Status submitted = core_->Submit(count, commands.data(), present);
   inFlight_.push_back(std::move(batch_));
   BeginBatch();
@@ -142,6 +161,7 @@ Status Context::SubmitAll(const PresentSync& present) {
 void Context::EndFrame() {
   Flush();
   reported_.clear();
+  core_->pipelines->ForgetFailed();
   frames_.push_back(core_->recording - 1);
   if (frames_.size() <= framesInFlight_) return;
   core_->Wait(frames_.front());

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_vulkan {
 namespace {
@@ -25,10 +26,11 @@ Status Context::InitBuffer(Buffer& buffer, const void* data) {
     return Status::Ok;
   }
   Slice slice;
-  if (!ring_.Take(AlignUp(size, ring_.Alignment()), &slice)) return Status::OutOfMemory;
+  if (!ring_.Take(AlignUp(size, ring_.Alignment()), &slice)) return core_->Failure();
   std::memcpy(slice.Data(), data, size);
   const VkBufferCopy region{slice.offset, 0, size};
-  vk_.vkCmdCopyBuffer(Setup(), slice.page->buffer, buffer.gpu.handle, 1, &region);
+  const VkCommandBuffer setup = Setup();
+  vk_.vkCmdCopyBuffer(setup, slice.page->buffer, buffer.gpu.handle, 1, &region);
   Access write = kCopyDest;
   write.layout = VK_IMAGE_LAYOUT_UNDEFINED;
   Advance(buffer.gpu.state, write);
@@ -52,35 +54,30 @@ Status Context::InitTexture(Texture& texture, const SubresourceData* data) {
       return Status::InvalidArg;
     }
     const Box box = WholeMip(backend::GetMipLayout(texture.Desc(), texture.One(i).mip));
-    if (!Upload(texture.IsStaging() ? VK_NULL_HANDLE : Setup(), texture, i, box, data[i])) return Status::OutOfMemory;
+    if (!Upload(texture.IsStaging() ? VK_NULL_HANDLE : Setup(), texture, i, box, data[i])) return core_->Failure();
   }
   return Status::Ok;
 }
 
-bool Context::CheckUpdate(Usage usage, const char* name) {
-  if (usage == Usage::Default) return true;
-  Complain(usage == Usage::Immutable ? MsgCode::ImmutableWrite : MsgCode::MapMode, name,
-           "UpdateSubresource needs a resource of Usage::Default; Dynamic and Staging ones are mapped");
-  return false;
-}
-
 void Context::UpdateSubresource(IResource* resource, uint32_t subresource, const Box* box, const void* data,
                                 uint32_t rowPitch, uint32_t slicePitch) {
-  if (!resource || !data || core_->lost) return;
+  if (core_->lost) return;
+  if (!resource || !data)
+    return Complain(MsgCode::InvalidDesc, "", "UpdateSubresource: the resource or the data is null; it is ignored");
   if (Buffer* buffer = AsBuffer(resource)) {
-    if (CheckUpdate(resource->GetUsage(), buffer->Name().c_str())) UpdateBuffer(*buffer, box, data);
+    const backend::Misuse misuse = backend::CheckUpdate(buffer->Desc(), box);
+    if (!misuse.Refuses(log_, buffer->Name().c_str())) UpdateBuffer(*buffer, box, data);
     return;
   }
   auto& texture = static_cast<Texture&>(*resource);
-  if (CheckUpdate(resource->GetUsage(), texture.Name().c_str()))
+  const backend::Misuse misuse = backend::CheckUpdate(texture.Desc(), subresource, box, rowPitch, slicePitch);
+  if (!misuse.Refuses(log_, texture.Name().c_str()))
     UpdateTexture(texture, subresource, box, {data, rowPitch, slicePitch});
 }
 
 void Context::UpdateBuffer(Buffer& buffer, const Box* box, const void* data) {
   const uint32_t width = buffer.Desc().byteWidth;
   const uint32_t left = box ? box->left : 0, right = box ? box->right : width;
-  if (left > right || right > width)
-    return Complain(MsgCode::OutOfBounds, buffer.Name().c_str(), "UpdateSubresource beyond the end of the buffer");
   const uint32_t size = right - left;
   Slice slice;
   if (size == 0 || !ring_.Take(AlignUp(size, ring_.Alignment()), &slice)) return;
@@ -94,22 +91,7 @@ void Context::UpdateBuffer(Buffer& buffer, const Box* box, const void* data) {
 }
 
 void Context::UpdateTexture(Texture& texture, uint32_t subresource, const Box* box, const SubresourceData& data) {
-  const char* name = texture.Name().c_str();
-  const FormatInfo& format = GetFormatInfo(texture.Desc().format);
-  if (subresource >= texture.SubresourceCount())
-    return Complain(MsgCode::SubresourceOutOfRange, name, "UpdateSubresource of a subresource that is not there");
-  if (format.depth || texture.Desc().sampleCount > 1)
-    return Complain(MsgCode::FormatMismatch, name,
-                    "UpdateSubresource of a depth or multisampled texture; clear, render or copy it instead");
-  const Box all = WholeMip(backend::GetMipLayout(texture.Desc(), texture.One(subresource).mip));
-  const Box b = box ? *box : all;
-  if (b.left > b.right || b.top > b.bottom || b.front > b.back || b.right > all.right || b.bottom > all.bottom ||
-      b.back > all.back)
-    return Complain(MsgCode::OutOfBounds, name, "UpdateSubresource beyond the edges of the subresource");
-  const uint32_t block = format.blockSize;
-  const bool aligned = b.left % block == 0 && b.top % block == 0 && (b.right % block == 0 || b.right == all.right) &&
-                       (b.bottom % block == 0 || b.bottom == all.bottom);
-  if (!aligned) return Complain(MsgCode::OutOfBounds, name, "boxes of block-compressed textures keep to 4x4 blocks");
+  const Box b = box ? *box : WholeMip(backend::GetMipLayout(texture.Desc(), texture.One(subresource).mip));
   if (b.left == b.right || b.top == b.bottom || b.front == b.back) return;
   LeavePass();
   Use(texture, texture.One(subresource), kCopyDest);

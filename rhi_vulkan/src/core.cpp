@@ -58,8 +58,7 @@ uint64_t Core::Completed() {
   return completed_;
 }
 
-Status Core::Submit(uint32_t count, const VkCommandBuffer* commands, const PresentSync& present) {
-  if (lost) return Status::DeviceLost;
+VkResult Core::TrySubmit(uint32_t count, const VkCommandBuffer* commands, const PresentSync& present) {
   std::array<VkCommandBufferSubmitInfo, 2> infos{};
   for (uint32_t i = 0; i < count; ++i) {
     infos[i].sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
@@ -82,11 +81,20 @@ Status Core::Submit(uint32_t count, const VkCommandBuffer* commands, const Prese
   submit.pWaitSemaphoreInfos = &wait;
   submit.signalSemaphoreInfoCount = present.written ? 2 : 1;
   submit.pSignalSemaphoreInfos = signals;
-  const Status status = Check(vk.vkQueueSubmit2(queue, 1, &submit, VK_NULL_HANDLE), "", "vkQueueSubmit2");
-  if (status != Status::Ok) lost = true;  // the serial will never be signalled: nothing may wait for it
+  return vk.vkQueueSubmit2(queue, 1, &submit, VK_NULL_HANDLE);
+}
+
+Status Core::Submit(uint32_t count, const VkCommandBuffer* commands, const PresentSync& present) {
+  if (!lost) {
+    VkResult result = TrySubmit(count, commands, present);
+    // Out of memory changes nothing, so there is a second try, when the GPU has given back what it holds.
+    const bool again = result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST && Wait(recording - 1) == Status::Ok;
+    if (again) result = TrySubmit(count, commands, present);
+    if (result != VK_SUCCESS) Lose(result, "vkQueueSubmit2");  // the serial will never be signalled
+  }
   ring->OnSubmit(recording);
   ++recording;
-  return status;
+  return lost ? Status::DeviceLost : Status::Ok;
 }
 
 Status Core::Wait(uint64_t serial) {
@@ -96,16 +104,13 @@ Status Core::Wait(uint64_t serial) {
   info.semaphoreCount = 1;
   info.pSemaphores = &timeline;
   info.pValues = &serial;
-  return Check(vk.vkWaitSemaphores(device, &info, UINT64_MAX), "", "vkWaitSemaphores");
+  const VkResult result = vk.vkWaitSemaphores(device, &info, UINT64_MAX);
+  return result == VK_SUCCESS ? Status::Ok : Lose(result, "vkWaitSemaphores");
 }
 
 Status Core::Check(VkResult result, const char* object, const char* what) {
   if (result == VK_SUCCESS) return Status::Ok;
-  if (result == VK_ERROR_DEVICE_LOST) {
-    if (lost) return Status::DeviceLost;  // said once
-    lost = true;
-  }
-  return CheckResult(log, result, object, what);
+  return result == VK_ERROR_DEVICE_LOST ? Lose(result, what) : CheckResult(log, result, object, what);
 }
 
 void Core::SetName(VkObjectType type, uint64_t handle, const char* name) {

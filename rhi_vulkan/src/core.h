@@ -45,11 +45,15 @@ class Core {
   // After the device is gone (and idle) objects are deleted at once.
   void Close();
 
-  // Signals `recording` and moves it on.
+  // Signals `recording` and moves it on; on a lost device only the latter.
   Status Submit(uint32_t count, const VkCommandBuffer* commands, const PresentSync& = {});
   Status Wait(uint64_t serial);  // of a submitted serial
   uint64_t Completed();
   Status Check(VkResult, const char* object, const char* what);  // also notes a lost device
+  // Of a failure after which nobody knows what the GPU does or holds. Waits for it, and says so, once.
+  Status Lose(VkResult, const char* what);
+  // Why a call failed that has given its message already.
+  Status Failure() const { return lost ? Status::DeviceLost : Status::OutOfMemory; }
   void SetName(VkObjectType, uint64_t handle, const char* name);
 
   MessageLog log;
@@ -71,6 +75,7 @@ class Core {
   bool lost = false;
 
  private:
+  VkResult TrySubmit(uint32_t count, const VkCommandBuffer* commands, const PresentSync&);
   uint64_t completed_ = 0;
   bool closed_ = false;
   std::deque<std::pair<uint64_t, Retirable*>> retired_;

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "core.h"
+#include "spirv.h"
 
 namespace rhi_vulkan {
 namespace {
@@ -24,9 +25,10 @@ Status LayoutCache::Init() {
   std::vector<SetBinding> registers;
   for (uint32_t i = 0; i < kMaxConstantBuffers; ++i)
     registers.push_back({i, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC});
+  if (!core_.adapter.features.drawParameters) registers.push_back({kStartsBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER});
   constants_ = Get(AllStages(core_.adapter.caps), std::move(registers));
   empty_ = Get(0, {});
-  return constants_ && empty_ ? Status::Ok : Status::OutOfMemory;
+  return constants_ && empty_ ? Status::Ok : core_.Failure();
 }
 
 const SetLayout* LayoutCache::Get(VkShaderStageFlags stages, std::vector<SetBinding> bindings) {
@@ -56,6 +58,9 @@ VkPipelineLayout LayoutCache::GetPipelineLayout(const std::array<const SetLayout
   VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
   info.setLayoutCount = uint32_t(handles.size());
   info.pSetLayouts = handles.data();
+  const VkPushConstantRange starts{VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(DrawStarts)};
+  info.pushConstantRangeCount = core_.adapter.features.drawParameters ? 0 : 1;
+  info.pPushConstantRanges = &starts;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   if (core_.Check(core_.vk.vkCreatePipelineLayout(core_.device, &info, nullptr, &layout), "",
                   "vkCreatePipelineLayout") != Status::Ok)
@@ -119,6 +124,7 @@ VkDescriptorSet DescriptorArena::Allocate(VkDescriptorSetLayout layout) {
 VkDescriptorPool DescriptorArena::NewPool() {
   constexpr uint32_t kSets = 256;
   constexpr auto kSizes = std::to_array<VkDescriptorPoolSize>({{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kSets * 2},
+                                                               {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kSets},
                                                                {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, kSets * 4},
                                                                {VK_DESCRIPTOR_TYPE_SAMPLER, kSets * 4},
                                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSets * 2},

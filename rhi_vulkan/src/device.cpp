@@ -103,6 +103,7 @@ Status VulkanDevice::CreateBufferView(Buffer* buffer, const ViewDesc* desc, Bind
 template <class Interface>
 Status VulkanDevice::CreateView(IResource* resource, const ViewDesc* desc, Bind need, Ref<Interface>* out) {
   *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
   if (!resource) return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "", kNullArgument);
   if (Buffer* buffer = AsBuffer(resource)) return CreateBufferView(buffer, desc, need, out);
   return CreateTextureView(static_cast<Texture*>(resource), desc, need, out);
@@ -123,11 +124,6 @@ Status VulkanDevice::CreateDepthStencilView(ITexture* texture, const ViewDesc* d
 
 Status VulkanDevice::CreateUnorderedAccessView(IResource* resource, const ViewDesc* desc,
                                                Ref<IUnorderedAccessView>* out) {
-  if (resource && !AsBuffer(resource)) {  // a storage image shows exactly one mip
-    ViewDesc one = desc ? *desc : ViewDesc{};
-    if (one.mipCount == kAllMips) one.mipCount = 1;
-    return CreateView(resource, &one, Bind::UnorderedAccess, out);
-  }
   return CreateView(resource, desc, Bind::UnorderedAccess, out);
 }
 
@@ -141,8 +137,9 @@ Status VulkanDevice::CreateShader(const ShaderBlob& blob, Ref<IShader>* out) {
 Status VulkanDevice::CreateInputLayout(const InputElement* elements, uint32_t count, IShader* vs,
                                        Ref<IInputLayout>* out) {
   *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
   if (!vs || vs->GetStage() != Stage::Vertex || count > kMaxVertexElements)
-    return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "",
+    return Refuse(Status::InvalidArg, MsgCode::LayoutMismatch, "",
                   "an input layout needs a vertex shader and at most 16 elements");
   std::vector<LayoutElement> resolved;
   const Status s = ResolveElements(elements, count, static_cast<Shader&>(*vs), *core_, &resolved);
@@ -165,24 +162,29 @@ Status VulkanDevice::CreateState(const Desc& desc, Ref<Interface>* out) {
 
 Status VulkanDevice::CreateBlendState(const BlendDesc& desc, Ref<IBlendState>* out) {
   *out = nullptr;
-  const Status s = CheckBlend(desc, GetCaps(), core_->log);
+  if (core_->lost) return Status::DeviceLost;
+  const Status s = backend::CheckBlendDesc(desc, GetCaps(), core_->log);
   return s == Status::Ok ? CreateState<BlendState>(desc, out) : s;
 }
 
 Status VulkanDevice::CreateDepthStencilState(const DepthStencilDesc& desc, Ref<IDepthStencilState>* out) {
-  return CreateState<DepthState>(desc, out);
+  *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
+  const Status s = backend::CheckDepthStencilDesc(desc, core_->log);
+  return s == Status::Ok ? CreateState<DepthState>(desc, out) : s;
 }
 
 Status VulkanDevice::CreateRasterizerState(const RasterizerDesc& desc, Ref<IRasterizerState>* out) {
   *out = nullptr;
-  const Status s = CheckRaster(desc, GetCaps(), core_->log);
+  if (core_->lost) return Status::DeviceLost;
+  const Status s = backend::CheckRasterizerDesc(desc, GetCaps(), core_->log);
   return s == Status::Ok ? CreateState<RasterState>(desc, out) : s;
 }
 
 Status VulkanDevice::CreateSamplerState(const SamplerDesc& desc, Ref<ISamplerState>* out) {
   *out = nullptr;
-  if (desc.maxAniso < 1 || desc.maxAniso > 16)
-    return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "", "SamplerDesc::maxAniso must be 1 to 16");
+  if (core_->lost) return Status::DeviceLost;
+  if (Status s = backend::CheckSamplerDesc(desc, GetCaps(), core_->log); s != Status::Ok) return s;
   Ref<Sampler> sampler = core_->states->samplers.Find(desc);
   if (sampler) return Give(sampler, Status::Ok, out);
   sampler = Ref<Sampler>::Adopt(new Sampler(core_, desc));
@@ -193,6 +195,9 @@ Status VulkanDevice::CreateSamplerState(const SamplerDesc& desc, Ref<ISamplerSta
 
 Status VulkanDevice::CreateQuery(const QueryDesc& desc, Ref<IQuery>* out) {
   *out = nullptr;
+  if (core_->lost) return Status::DeviceLost;
+  if (desc.type > QueryType::PipelineStatistics)
+    return Refuse(Status::InvalidArg, MsgCode::InvalidDesc, "", "QueryDesc::type is none");
   if (!QueryAvailable(desc.type, GetCaps(), core_->adapter.features))
     return Refuse(Status::Unsupported, MsgCode::CapMissing, "",
                   "this adapter has no such query; see Caps::timestamp, pipelineStatistics and occlusionPrecise");
@@ -208,9 +213,12 @@ Status VulkanDevice::CreateSwapChain(const SwapChainDesc& desc, Ref<ISwapChain>*
 }
 
 Status VulkanDevice::PrecachePipeline(const PipelineKeyDesc& d) {
-  if (!d.vs || d.rtvCount > kMaxRenderTargets)
+  if (core_->lost) return Status::DeviceLost;
+  const auto fits = [](const IShader* s, Stage stage) { return !s || s->GetStage() == stage; };
+  if (!d.vs || !fits(d.vs, Stage::Vertex) || !fits(d.gs, Stage::Geometry) || !fits(d.ps, Stage::Pixel) ||
+      d.rtvCount > kMaxRenderTargets)
     return Refuse(Status::InvalidArg, MsgCode::NoVertexShader, "",
-                  "PrecachePipeline needs a vertex shader and at most 8 targets");
+                  "PrecachePipeline needs a vertex shader, each shader in its place, and at most 8 targets");
   const auto shader = [](IShader* s) { return static_cast<Shader*>(s); };
   const auto id = [](const auto* object) { return object ? object->id : 0u; };
   const auto* layout = static_cast<const InputLayout*>(d.layout);
@@ -231,7 +239,8 @@ Status VulkanDevice::PrecachePipeline(const PipelineKeyDesc& d) {
     key.depthClip = d.raster->Desc().depthClip;
   }
   const PipelineParts parts{shader(d.vs), shader(d.gs), shader(d.ps), layout, blend ? &blend->Desc() : nullptr};
-  return core_->pipelines->Get(key, parts).handle ? Status::Ok : Status::CompileFailed;
+  core_->pipelines->ForgetFailed();
+  return core_->pipelines->Get(key, parts).status;
 }
 
 size_t VulkanDevice::GetPipelineCacheBlob(void* out, size_t capacity) { return core_->pipelines->Blob(out, capacity); }

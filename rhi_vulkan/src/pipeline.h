@@ -37,7 +37,8 @@ struct PipelineParts {
 };
 
 struct Pipeline {
-  VkPipeline handle = VK_NULL_HANDLE;  // null: the driver refused it
+  VkPipeline handle = VK_NULL_HANDLE;  // null: see `status`
+  Status status = Status::Ok;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   std::array<const SetLayout*, 3> sets{};  // of vertex, geometry and pixel shader; null: no such shader
 };
@@ -54,7 +55,9 @@ class PipelineCache {
     const RecentEntry& entry = recent_[RecentSlot(key)];
     return entry.pipeline && SameBytes(entry.key, key) ? entry.pipeline : nullptr;
   }
+  void ForgetFailed();           // those that failed for another reason than a shader: to be tried again
   void Forget(uint32_t shader);  // when a shader is destroyed: the GPU is past its pipelines
+  // The driver's data behind a header of ours: drivers need not check what they are given, so we do.
   size_t Blob(void* out, size_t capacity);
   VkPipelineCache Handle() const { return cache_; }
 
@@ -79,11 +82,13 @@ class PipelineCache {
   static constexpr size_t kRecent = 64;
 
   Pipeline Make(const PipelineKey&, const PipelineParts&);
-  bool BlobFits(const void* blob, size_t size) const;
+  const char* ProblemOf(const void* blob, size_t size) const;  // null: the driver may have it
+  VkResult Create(const void* data, size_t size);
 
   Core& core_;
   VkPipelineCache cache_ = VK_NULL_HANDLE;
   std::unordered_map<PipelineKey, Pipeline, Hash> pipelines_;
+  bool anyFailed_ = false;
   std::array<RecentEntry, kRecent> recent_{};  // into pipelines_, whose elements stay where they are
 };
 

@@ -5,7 +5,22 @@
 namespace rhi_vulkan {
 namespace {
 
-constexpr size_t kBlobHeaderBytes = 32;  // VkPipelineCacheHeaderVersionOne
+constexpr size_t kDriverHeaderBytes = 32;  // VkPipelineCacheHeaderVersionOne
+
+struct BlobHeader {
+  uint64_t magic, bytes, hash;  // bytes and hash: of what follows, the driver's data
+};
+constexpr uint64_t kBlobMagic = 0x3143'4550'4950'5546;  // "FUPIPEC1"
+
+// FNV-1a: every changed bit changes it.
+uint64_t HashOf(const uint8_t* data, size_t bytes) {
+  uint64_t h = 0xcbf29ce484222325ull;
+  for (size_t i = 0; i < bytes; ++i) h = (h ^ data[i]) * 0x100000001b3ull;
+  return h;
+}
+
+// For want of memory, say, and not because the driver refuses it.
+bool FailedForNow(const Pipeline& p) { return p.status != Status::Ok && p.status != Status::CompileFailed; }
 
 }  // namespace
 
@@ -58,34 +73,57 @@ PipelineCache::~PipelineCache() {
   if (cache_) core_.vk.vkDestroyPipelineCache(core_.device, cache_, nullptr);
 }
 
-bool PipelineCache::BlobFits(const void* blob, size_t size) const {
-  VkPipelineCacheHeaderVersionOne header{};
-  if (size < kBlobHeaderBytes) return false;
-  std::memcpy(&header, blob, kBlobHeaderBytes);
+const char* PipelineCache::ProblemOf(const void* blob, size_t size) const {
+  BlobHeader ours;
+  VkPipelineCacheHeaderVersionOne driver{};
+  if (size < sizeof ours + kDriverHeaderBytes) return "it is too short";
+  std::memcpy(&ours, blob, sizeof ours);
+  const uint8_t* data = static_cast<const uint8_t*>(blob) + sizeof ours;
+  if (ours.magic != kBlobMagic) return "it does not come from GetPipelineCacheBlob";
+  if (ours.bytes != size - sizeof ours || ours.hash != HashOf(data, ours.bytes)) return "it is damaged";
+  std::memcpy(&driver, data, kDriverHeaderBytes);
   const VkPhysicalDeviceProperties& p = core_.adapter.properties;
-  return header.headerSize == kBlobHeaderBytes && header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
-         header.vendorID == p.vendorID && header.deviceID == p.deviceID &&
-         std::memcmp(header.pipelineCacheUUID, p.pipelineCacheUUID, VK_UUID_SIZE) == 0;
+  const bool fits = driver.headerSize == kDriverHeaderBytes &&
+                    driver.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && driver.vendorID == p.vendorID &&
+                    driver.deviceID == p.deviceID &&
+                    std::memcmp(driver.pipelineCacheUUID, p.pipelineCacheUUID, VK_UUID_SIZE) == 0;
+  return fits ? nullptr : "it is of another driver or adapter, or of another version of the driver";
+}
+
+VkResult PipelineCache::Create(const void* data, size_t size) {
+  VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+  info.initialDataSize = size;
+  info.pInitialData = data;
+  return core_.vk.vkCreatePipelineCache(core_.device, &info, nullptr, &cache_);
 }
 
 Status PipelineCache::Init(const void* blob, size_t size) {
-  VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-  if (blob && BlobFits(blob, size)) {
-    info.initialDataSize = size;
-    info.pInitialData = blob;
-  } else if (blob) {
-    core_.log.Report(Severity::Info, MsgCode::None, "",
-                     "the pipeline cache blob is of another driver or adapter, or damaged; it is ignored");
+  const char* problem = blob ? ProblemOf(blob, size) : nullptr;
+  if (blob && !problem) {
+    if (Create(static_cast<const uint8_t*>(blob) + sizeof(BlobHeader), size - sizeof(BlobHeader)) == VK_SUCCESS)
+      return Status::Ok;
+    cache_ = VK_NULL_HANDLE;
+    problem = "the driver does not take it";
   }
-  return core_.Check(core_.vk.vkCreatePipelineCache(core_.device, &info, nullptr, &cache_), "",
-                     "vkCreatePipelineCache");
+  if (problem)
+    core_.log.Report(Severity::Warning, MsgCode::PipelineCacheRefused, "",
+                     "the pipeline cache blob of %zu bytes is ignored: %s; pipelines are made anew", size, problem);
+  return core_.Check(Create(nullptr, 0), "", "vkCreatePipelineCache");
 }
 
 const Pipeline& PipelineCache::Get(const PipelineKey& key, const PipelineParts& parts) {
   const auto [it, isNew] = pipelines_.try_emplace(key);
   if (isNew) it->second = Make(key, parts);  // a refused pipeline is remembered too, so that it is tried once
+  anyFailed_ = anyFailed_ || FailedForNow(it->second);
   recent_[RecentSlot(key)] = {key, &it->second};
   return it->second;
+}
+
+void PipelineCache::ForgetFailed() {
+  if (!anyFailed_) return;
+  anyFailed_ = false;
+  recent_ = {};
+  std::erase_if(pipelines_, [](const auto& entry) { return FailedForNow(entry.second); });
 }
 
 void PipelineCache::Forget(uint32_t shader) {
@@ -99,11 +137,19 @@ void PipelineCache::Forget(uint32_t shader) {
 }
 
 size_t PipelineCache::Blob(void* out, size_t capacity) {
-  size_t size = 0;
-  if (core_.vk.vkGetPipelineCacheData(core_.device, cache_, &size, nullptr) != VK_SUCCESS) return 0;
-  if (!core_.adapter.caps.pipelineCacheBlob || size <= kBlobHeaderBytes) return 0;
-  if (out && capacity >= size) core_.vk.vkGetPipelineCacheData(core_.device, cache_, &size, out);
-  return size;
+  size_t bytes = 0;
+  if (core_.lost || !core_.adapter.caps.pipelineCacheBlob) return 0;
+  const auto get = [&](uint8_t* data) {
+    const VkResult result = core_.vk.vkGetPipelineCacheData(core_.device, cache_, &bytes, data);
+    return core_.Check(result, "", "vkGetPipelineCacheData") == Status::Ok;
+  };
+  if (!get(nullptr) || bytes <= kDriverHeaderBytes) return 0;
+  if (!out || capacity < sizeof(BlobHeader) + bytes) return sizeof(BlobHeader) + bytes;
+  uint8_t* data = static_cast<uint8_t*>(out) + sizeof(BlobHeader);
+  if (!get(data)) return 0;
+  const BlobHeader ours{kBlobMagic, bytes, HashOf(data, bytes)};
+  std::memcpy(out, &ours, sizeof ours);
+  return sizeof ours + bytes;
 }
 
 }  // namespace rhi_vulkan

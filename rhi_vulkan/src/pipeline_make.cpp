@@ -187,6 +187,7 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   Pipeline out;
   out.sets = {parts.vs->layout, parts.gs ? parts.gs->layout : nullptr, parts.ps ? parts.ps->layout : nullptr};
   out.layout = core_.layouts->GetPipelineLayout(out.sets);
+  out.status = core_.Failure();
   if (!out.layout) return out;
 
   Stages stages;
@@ -206,7 +207,9 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   assembly.topology = TopologyOf(key.topology);
   VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
   VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-  const std::array<VkSampleMask, 2> mask{key.sampleMask, ~0u};
+  // Bits beyond the last sample are no samples: lavapipe would take any bit for the only one.
+  const std::array<VkSampleMask, 2> mask{key.samples < 32 ? key.sampleMask & ((1u << key.samples) - 1) : key.sampleMask,
+                                         ~0u};
   multisample.rasterizationSamples = VkSampleCountFlagBits(key.samples);
   multisample.pSampleMask = mask.data();
   multisample.alphaToCoverageEnable = blendDesc.alphaToCoverage;
@@ -229,8 +232,8 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   info.layout = out.layout;
   ++made;
   const VkResult result = core_.vk.vkCreateGraphicsPipelines(core_.device, cache_, 1, &info, nullptr, &out.handle);
-  if (core_.Check(result, parts.vs->Name().c_str(), "vkCreateGraphicsPipelines") != Status::Ok)
-    out.handle = VK_NULL_HANDLE;
+  out.status = core_.Check(result, parts.vs->Name().c_str(), "vkCreateGraphicsPipelines");
+  if (out.status != Status::Ok) out.handle = VK_NULL_HANDLE;
   return out;
 }
 

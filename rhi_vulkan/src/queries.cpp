@@ -18,9 +18,8 @@ VkQueryType ToVk(SegmentKind kind) {
 }
 
 template <class T>
-Status Give(const T& value, void* data, uint32_t size) {
-  if (size < sizeof value) return Status::InvalidArg;
-  std::memcpy(data, &value, sizeof value);
+Status Give(const T& value, void* data) {
+  if (data) std::memcpy(data, &value, sizeof value);
   return Status::Ok;
 }
 
@@ -90,24 +89,36 @@ Status QueryHeap::AddResults(const QuerySegment& s, std::array<uint64_t, kMaxSeg
   return Status::Ok;
 }
 
-Status Query::Read(const QueryHeap& heap, void* data, uint32_t size) const {
+uint32_t Query::ResultSize() const {
+  switch (type_) {
+    case QueryType::Event:
+    case QueryType::OcclusionPredicate: return sizeof(bool);
+    case QueryType::Occlusion:
+    case QueryType::Timestamp: return sizeof(uint64_t);
+    case QueryType::TimestampDisjoint: return sizeof(TimestampDisjoint);
+    case QueryType::PipelineStatistics: return sizeof(PipelineStatistics);
+  }
+  return 0;
+}
+
+Status Query::Read(const QueryHeap& heap, void* data) const {
   std::array<uint64_t, kMaxSegmentValues> sums{};
   for (const auto& segment : segments)
     if (Status s = heap.AddResults(*segment, &sums); s != Status::Ok) return s;
   switch (type_) {
-    case QueryType::Event: return Give(true, data, size);
+    case QueryType::Event: return Give(true, data);
     case QueryType::Occlusion:
-    case QueryType::Timestamp: return Give(sums[0], data, size);
-    case QueryType::OcclusionPredicate: return Give(sums[0] != 0, data, size);
+    case QueryType::Timestamp: return Give(sums[0], data);
+    case QueryType::OcclusionPredicate: return Give(sums[0] != 0, data);
     case QueryType::TimestampDisjoint: {
       const double period = core_->adapter.caps.timestampPeriodNs;
-      return Give(TimestampDisjoint{period > 0 ? uint64_t(std::llround(1e9 / period)) : 0, false}, data, size);
+      return Give(TimestampDisjoint{period > 0 ? uint64_t(std::llround(1e9 / period)) : 0, false}, data);
     }
     case QueryType::PipelineStatistics: {
       PipelineStatistics out{};
       static_assert(sizeof out == sizeof sums);
       std::memcpy(&out, sums.data(), sizeof out);
-      return Give(out, data, size);
+      return Give(out, data);
     }
   }
   return Status::InternalError;

@@ -43,6 +43,8 @@ class Buffer final : public VkObject<IBuffer> {
   const uint64_t id;
 
  private:
+  void Destroy() noexcept override;
+
   std::string descName_;
   BufferDesc desc_;
 };

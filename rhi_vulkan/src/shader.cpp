@@ -127,13 +127,13 @@ Status Shader::Create(const ShaderBlob& blob) {
   SplitRegisters(reflection, &inputs, &uavs);
   layout = core_->layouts->Get(StageFlag(stage_), std::move(inputs));
   uavLayout = core_->layouts->Get(StageFlag(stage_), std::move(uavs));
-  if (!layout || !uavLayout) return Status::OutOfMemory;
+  if (!layout || !uavLayout) return core_->Failure();
   return stage_ == Stage::Compute ? CreateComputePipeline(blob.name) : Status::Ok;
 }
 
 Status Shader::CreateComputePipeline(const char* name) {
   computeLayout = core_->layouts->GetPipelineLayout({layout, uavLayout, nullptr});
-  if (!computeLayout) return Status::OutOfMemory;
+  if (!computeLayout) return core_->Failure();
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
   info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;

@@ -19,8 +19,15 @@ uint32_t ColorOutputs(const Array<uint32_t>&);
 // cannot say it, and other topologies need not pay for it.
 std::vector<uint32_t> WithPointSize(const Array<uint32_t>&);
 
-// For drivers without shaderDrawParameters (SwiftShader): the bases that SV_VertexID and SV_InstanceID subtract read 0,
-// which is right for draws that start at 0; other draws see their start included.
+// Where a draw starts, for drivers without shaderDrawParameters (SwiftShader): what SV_VertexID and SV_InstanceID
+// subtract. As push constants of a vertex shader; for indirect draws `indirect` is 1, and the two numbers are those
+// that were copied from the arguments to the uniform block at kStartsBinding of the constants' set.
+struct DrawStarts {
+  uint32_t vertex = 0, instance = 0, indirect = 0;
+  bool operator==(const DrawStarts&) const = default;
+};
+inline constexpr uint32_t kStartsBinding = kMaxConstantBuffers;
+// A vertex shader that reads them from there.
 std::vector<uint32_t> WithoutDrawParameters(const Array<uint32_t>&);
 
 }  // namespace rhi_vulkan

@@ -100,41 +100,12 @@ Status Sampler::Create() {
   const VkBorderColor standard = StandardBorder(desc_.border);
   if (standard != VK_BORDER_COLOR_MAX_ENUM) {
     info.borderColor = standard;
-  } else if (UsesBorder(desc_)) {
-    if (!core_->adapter.features.customBorderColor) {
-      core_->log.Report(Severity::Error, MsgCode::CapMissing, "",
-                        "this border colour needs Caps::customBorderColor; (0,0,0,0), (0,0,0,1) and (1,1,1,1) do not");
-      return Status::Unsupported;
-    }
+  } else if (UsesBorder(desc_)) {  // CheckSamplerDesc has seen the cap
     std::copy(desc_.border.begin(), desc_.border.end(), custom.customBorderColor.float32);
     info.pNext = &custom;
     info.borderColor = VK_BORDER_COLOR_FLOAT_CUSTOM_EXT;
   }
   return core_->Check(core_->vk.vkCreateSampler(core_->device, &info, nullptr, &handle), "", "vkCreateSampler");
-}
-
-Status CheckBlend(const BlendDesc& d, const Caps& caps, const MessageLog& log) {
-  const auto dual = [](Blend b) { return b >= Blend::Src1Color && b <= Blend::InvSrc1Alpha; };
-  const auto usesDual = [&](const RenderTargetBlend& t) {
-    return t.enable && (dual(t.src) || dual(t.dest) || dual(t.srcAlpha) || dual(t.destAlpha));
-  };
-  const char* missing = nullptr;
-  if (d.independent && !caps.independentBlend) missing = "BlendDesc::independent needs Caps::independentBlend";
-  if (!caps.dualSourceBlend && std::any_of(d.rt.begin(), d.rt.end(), usesDual))
-    missing = "blend factors of a second source need Caps::dualSourceBlend";
-  if (!missing) return Status::Ok;
-  log.Report(Severity::Error, MsgCode::CapMissing, "", "%s", missing);
-  return Status::Unsupported;
-}
-
-Status CheckRaster(const RasterizerDesc& d, const Caps& caps, const MessageLog& log) {
-  const char* missing = nullptr;
-  if (d.fill == FillMode::Wireframe && !caps.wireframe) missing = "FillMode::Wireframe needs Caps::wireframe";
-  if (!d.depthClip && !caps.depthClipDisable) missing = "depthClip = false needs Caps::depthClipDisable";
-  if (d.depthBiasClamp != 0 && !caps.depthBiasClamp) missing = "depthBiasClamp needs Caps::depthBiasClamp";
-  if (!missing) return Status::Ok;
-  log.Report(Severity::Error, MsgCode::CapMissing, "", "%s", missing);
-  return Status::Unsupported;
 }
 
 InputLayout::InputLayout(std::shared_ptr<Core> core, std::vector<LayoutElement> list, uint32_t layoutId)

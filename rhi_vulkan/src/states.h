@@ -135,8 +135,6 @@ void State<Interface, DescType>::Destroy() noexcept {
   delete this;
 }
 
-Status CheckBlend(const BlendDesc&, const Caps&, const MessageLog&);
-Status CheckRaster(const RasterizerDesc&, const Caps&, const MessageLog&);
 // Matches elements to the inputs of `vs` by semantic.
 Status ResolveElements(const InputElement*, uint32_t count, const Shader& vs, const Core&, std::vector<LayoutElement>*);
 

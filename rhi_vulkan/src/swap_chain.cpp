@@ -44,9 +44,9 @@ Status SwapChain::CreateBackBuffer() {
 }
 
 Status SwapChain::Resize(uint32_t width, uint32_t height) {
+  if (core_->lost || !core_->context) return Status::DeviceLost;
   minimised_ = width == 0 || height == 0;
   if (minimised_) return Status::Ok;
-  if (core_->lost || !core_->context) return Status::DeviceLost;
   const SwapChainDesc before = desc_;
   desc_.width = width;
   desc_.height = height;

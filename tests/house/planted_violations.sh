@@ -11,7 +11,8 @@ bad=0
 
 fresh_tree() {
   rm -rf "$work/tree"
-  mkdir -p "$work/tree/rhi/src" "$work/tree/fur/src" "$work/tree/app/src" "$work/tree/tools" "$work/tree/build"
+  mkdir -p "$work/tree/rhi/src" "$work/tree/fur/src" "$work/tree/app/src" "$work/tree/tools" "$work/tree/build" \
+    "$work/tree/docs" "$work/tree/tests/rhi"
   cat >"$work/tree/rhi/src/types.cpp" <<'TEXT'
 #include <vector>
 #include "rhi/types.h"
@@ -31,6 +32,9 @@ int main() { glfwInit(); }
 TEXT
   printf '#!/bin/sh\necho fine\n' >"$work/tree/tools/fine.sh"
   chmod +x "$work/tree/tools/fine.sh"
+  printf 'TEST_P(ClearTest,\n       WholeView) {\nTEST(Codes, Stable) {\n' >"$work/tree/tests/rhi/clear_test.cpp"
+  printf '| rule | tests |\n|---|---|\n| clears | `ClearTest.WholeView`, `Codes.Stable` |\n' \
+    >"$work/tree/docs/rhi_rules.md"
   # What is built is nobody's source.
   printf 'if then\n' >"$work/tree/build/broken.sh"
 }
@@ -63,7 +67,7 @@ planted() {
   fails "$1" "$2"
 }
 
-for check in check_lines.sh check_api_names.sh check_scripts.sh; do
+for check in check_lines.sh check_api_names.sh check_scripts.sh check_rules_table.sh; do
   fresh_tree
   passes "$check" "a clean tree"
 done
@@ -89,6 +93,9 @@ planted check_api_names.sh app/src/main.cpp 'auto d = eglGetDisplay(0);'
 planted check_api_names.sh app/src/main.cpp '/* one line */ vkCmdDraw(c);'
 
 planted check_api_names.sh rhi/CMakeLists.txt '# fur_check_includes(rhi FORBID app)'
+
+planted check_rules_table.sh docs/rhi_rules.md '| masks | `ClearTest.NoSuchCase` |'
+planted check_rules_table.sh docs/rhi_rules.md '| masks | nothing yet |'
 
 planted check_scripts.sh tools/fine.sh 'if true; then'
 fresh_tree

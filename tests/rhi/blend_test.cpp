@@ -126,6 +126,45 @@ TEST_P(BlendTest, EachOpAndAlphaOp) {
   ExpectAll();
 }
 
+// The pixel shader's second colour as a factor.
+TEST_P(BlendTest, SecondSourceFactors) {
+  RHI_NEEDS_CAP(dualSourceBlend);
+  const Color second{0.5, 0.25, 0.75, 0.4};
+  struct Case {
+    B color, alpha;
+    bool inverse, useAlpha;
+  };
+  const Case all[] = {{B::Src1Color, B::Src1Alpha, false, false},
+                      {B::InvSrc1Color, B::InvSrc1Alpha, true, false},
+                      {B::Src1Alpha, B::Src1Alpha, false, true},
+                      {B::InvSrc1Alpha, B::InvSrc1Alpha, true, true}};
+  for (const Case& k : all)
+    for (const bool asDest : {false, true}) {
+      Start();
+      BlendDesc desc;
+      desc.rt[0] = {.enable = true,
+                    .src = asDest ? B::One : k.color,
+                    .dest = asDest ? k.color : B::Zero,
+                    .srcAlpha = asDest ? B::Zero : k.alpha,
+                    .destAlpha = asDest ? k.alpha : B::Zero};
+      context.OMSetBlendState(gpu.Blend(desc).get());
+      gpu.DrawRect(test_shaders::rect_PSTwoSources,
+                   {.tint = {0.2f, 0.3f, 0.1f, 0.6f},
+                    .extra = {float(second[3]), float(second[0]), float(second[1]), float(second[2])}});
+      const Color source{0.2, 0.3, 0.1, 0.6};
+      Rgba8 expected;
+      for (size_t c = 0; c < 4; ++c) {
+        double f = k.useAlpha || c == 3 ? second[3] : second[c];
+        if (k.inverse) f = 1 - f;
+        const double d = kDest[c] / 255.0;
+        expected[c] = ToUnorm8(!asDest ? source[c] * f : c == 3 ? d * f : source[c] + d * f);
+      }
+      EXPECT_TRUE(Matches(
+          gpu.Read(target), [&](auto, auto) { return expected; }, 1))
+          << int(k.color) << asDest;
+    }
+}
+
 TEST_P(BlendTest, DisabledBlendingReplaces) {
   Start();
   BlendDesc off;

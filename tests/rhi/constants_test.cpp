@@ -128,6 +128,33 @@ TEST_P(ConstantsTest, ContentsOutliveFrames) {
   }
 }
 
+// How many references there are: the caller's one, and those of the context.
+uint32_t References(IBuffer& buffer) {
+  buffer.AddRef();
+  return buffer.Release();
+}
+
+// A draw makes the backend look at the buffers; neither of them may be kept after it is unbound.
+TEST_P(ConstantsTest, UnboundBuffersAreNotHeld) {
+  const Target target = gpu.MakeTarget({});
+  for (const bool clearState : {true, false}) {
+    const Ref<IBuffer> dynamic = Make(64);
+    const Ref<IBuffer> fixed = gpu.Buffer({.byteWidth = 64, .bind = Bind::ConstantBuffer, .name = "fixed"});
+    gpu.SetTarget(target);
+    Bind4({dynamic, fixed, dynamic, {}});
+    gpu.DrawRect(test_shaders::rect_PSTint);
+    if (clearState) {
+      context.ClearState();
+    } else {
+      Bind4({});
+    }
+    EXPECT_EQ(References(*dynamic), 1u) << clearState;
+    EXPECT_EQ(References(*fixed), 1u) << clearState;
+  }
+  gpu.SetTarget(target);
+  gpu.DrawRect(test_shaders::rect_PSTint);  // what the backend remembered of the buffers is gone with them
+}
+
 TEST_P(ConstantsTest, UpdateOfTooMuchIsReported) {
   sink.Expect(MsgCode::OutOfBounds, "more bytes than the buffer has");
   const std::array<float, 16> data{};

@@ -101,6 +101,51 @@ TEST_P(DepthTest, DepthBiasMovesAwayAndSlopes) {
   EXPECT_LT(depth.At<float>(1, 0), 0.5f);
 }
 
+// bias = depthBias * step + slopeScaledBias * slope, clamped. A step is the smallest difference of the format near the
+// primitive's greatest depth; the slope is the greater of its changes across and down a pixel.
+TEST_P(DepthTest, DepthBiasFollowsTheFormula) {
+  RHI_NEEDS_CAP(depthBiasClamp);
+  struct Vertex {
+    float position[3], color[4];
+  };
+  const Ref<IBuffer> slanted =
+      gpu.BufferOf(Bind::VertexBuffer,
+                   std::vector<Vertex>{{{-1, 1, 0.25f}}, {{1, 1, 0.375f}}, {{-1, -1, 0.25f}}, {{1, -1, 0.375f}}});
+  const InputElement layout[] = {{.semantic = "POSITION", .format = Format::RGB32_Float},
+                                 {.semantic = "COLOR", .format = Format::RGBA32_Float, .offset = 12}};
+  const double slope = 0.125 / 32, step = std::ldexp(1.0, -2 - 23);  // the greatest depth is in [1/4, 1/2)
+  struct Case {
+    int32_t bias;
+    float scale, clamp;
+    double expected;
+  };
+  const Case cases[] = {{0, 0, 0, 0},
+                        {100000, 0, 0, 100000 * step},
+                        {-100000, 0, 0, -100000 * step},
+                        {0, 2, 0, 2 * slope},
+                        {0, -1, 0, -slope},
+                        {100000, 2, 0, 100000 * step + 2 * slope},
+                        {0, 2, 0.001f, 0.001},
+                        {0, -2, -0.001f, -0.001},
+                        {0, 2, 0.5f, 2 * slope}};
+  for (const Case& c : cases) {
+    const Target target = gpu.MakeTarget({.width = 32, .height = 4, .depthFormat = Format::D32_Float});
+    gpu.Clear(target, {0, 0, 0, 0}, 1);
+    gpu.SetTarget(target);
+    const RasterizerDesc raster{.depthBias = c.bias, .depthBiasClamp = c.clamp, .slopeScaledBias = c.scale};
+    context.RSSetState(gpu.Rasterizer(raster).get());
+    gpu.SetShaders(test_shaders::mesh_VSMesh, test_shaders::mesh_PSMesh);
+    context.IASetInputLayout(gpu.Layout(layout, gpu.Shader(test_shaders::mesh_VSMesh).get()).get());
+    context.IASetPrimitiveTopology(PrimitiveTopology::TriangleStrip);
+    gpu.SetVertices(slanted.get(), sizeof(Vertex));
+    context.Draw(4, 0);
+    EXPECT_TRUE(Matches(
+        gpu.Read(target.depth.get()),
+        [&](uint32_t x, auto) { return std::array<float, 1>{float(0.25 + (x + 0.5) * slope + c.expected)}; }, 2e-6))
+        << c.bias << ' ' << c.scale << ' ' << c.clamp;
+  }
+}
+
 TEST_P(DepthTest, ClearOfDepthOnlyAndStencilOnly) {
   const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = StencilFormat(device)});
   gpu.Clear(target, {0, 0, 0, 0}, 0.25f, 7);

@@ -52,6 +52,28 @@ TEST_P(GeometryTest, LayerOutput) {
   }
 }
 
+// Each viewport with its own scissor; what the geometry shader sends to one stays within both.
+TEST_P(GeometryTest, ViewportOutput) {
+  RHI_NEEDS_CAP(geometryShader);
+  const Target target = gpu.MakeTarget({});
+  gpu.Clear(target, {0, 0, 0, 0});
+  gpu.SetTarget(target);
+  const Viewport views[4] = {{0, 0, 8, 8}, {8, 0, 8, 8}, {0, 8, 8, 8}, {8, 8, 8, 8}};
+  const Rect scissors[4] = {{0, 0, 16, 16}, {0, 0, 16, 4}, {4, 0, 16, 16}, {9, 9, 11, 11}};
+  context.RSSetViewports(4, views);
+  context.RSSetScissorRects(4, scissors);
+  context.RSSetState(gpu.Rasterizer({.scissor = true}).get());
+  gpu.SetGeometryShader(test_shaders::geometry_GSMainViewports);
+  gpu.DrawRect(test_shaders::geometry_PSUvX);
+  EXPECT_TRUE(Matches(gpu.Read(target), [&](uint32_t x, uint32_t y) {
+    const uint32_t i = x / 8 + 2 * (y / 8);
+    const Rect& r = scissors[i];
+    const bool inside = int(x) >= r.left && int(x) < r.right && int(y) >= r.top && int(y) < r.bottom;
+    const uint8_t v = uint8_t(i + 1);
+    return inside ? Rgba8{v, v, v, 255} : Rgba8{0, 0, 0, 0};
+  }));
+}
+
 TEST_P(GeometryTest, MaxVertexCount) {
   RHI_NEEDS_CAP(geometryShader);
   const Target target = gpu.MakeTarget({.width = 64, .height = 1});

@@ -203,6 +203,39 @@ TEST_P(InputTest, UnboundVertexBufferReadsZero) {
   ExpectIds(0, 0, 0, 0, "nothing");
 }
 
+// Vertices beyond the end of their buffer read 0: here those of a second buffer that is too short.
+TEST_P(InputTest, VerticesBeyondTheBufferReadZero) {
+  Prepare();
+  const InputElement two[] = {{.semantic = "POSITION", .format = Format::RG32_Float},
+                              {.semantic = "COLOR", .semanticIndex = 1, .format = Format::RGBA8_UNorm, .slot = 3}};
+  const Ref<IBuffer> colors = gpu.BufferOf(Bind::VertexBuffer, std::vector<Rgba8>(6, Rgba8{77, 0, 0, 0}));
+  context.IASetInputLayout(gpu.Layout(two, gpu.Shader(test_shaders::ids_VSIds).get()).get());
+  gpu.SetVertices(colors.get(), 4, 0, 3);
+  for (const bool indexed : {false, true}) {
+    gpu.Clear(target, {0, 0, 0, 0});
+    if (indexed)
+      context.DrawIndexed(12, 0, 0);
+    else
+      context.Draw(12, 0);
+    EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) {
+      if (x >= 4 || y > 0) return Rgba8{0, 0, 0, 0};
+      return Rgba8{uint8_t(3 * x), 0, uint8_t(x < 2 ? 77 : 0), 255};
+    })) << indexed;
+  }
+}
+
+// Indices beyond the end of their buffer are 0.
+TEST_P(InputTest, IndicesBeyondTheBufferReadZero) {
+  Prepare();
+  const Ref<IBuffer> few = gpu.BufferOf(Bind::IndexBuffer, std::vector<uint32_t>{3, 4, 5, 9, 10, 11});
+  context.IASetIndexBuffer(few.get(), Format::R32_UInt, 0);
+  context.DrawIndexed(12, 0, 0);
+  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t y) {
+    const bool drawn = (x == 1 || x == 3) && y == 0;  // vertex 0 three times covers nothing
+    return drawn ? Rgba8{uint8_t(3 * x), 0, uint8_t(100 + x), 255} : Rgba8{0, 0, 0, 0};
+  }));
+}
+
 RHI_ON_EVERY_BACKEND(InputTest);
 
 }  // namespace

@@ -121,6 +121,39 @@ TEST_P(MsaaTest, DepthOfEachSample) {
       1));
 }
 
+// Shaders read single samples; their sum is what a resolve gives.
+TEST_P(MsaaTest, SamplesAreReadByShaders) {
+  const Target target = Start(4);
+  const uint32_t masks[] = {0x1, 0x2, 0x4, 0x8};
+  for (uint32_t i = 0; i < 4; ++i) {
+    context.OMSetBlendState(nullptr, nullptr, masks[i]);
+    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {float(i + 1) / 255, 0, 0, 1}});
+  }
+  context.OMSetBlendState(nullptr);
+  context.RSSetState(nullptr);
+  const Target row = gpu.MakeTarget({.width = 4, .height = 1});
+  gpu.SetTarget(row);
+  gpu.SetTexture(Stage::Pixel, 1, target.color.get());
+  gpu.DrawRect(test_shaders::formats_PSLoadSample);
+  EXPECT_TRUE(Matches(gpu.Read(row), [](uint32_t x, auto) { return Rgba8{uint8_t(x + 1), 0, 0, 255}; }));
+}
+
+// A target of one sample has a sample mask, too: its lowest bit.
+TEST_P(MsaaTest, SampleMaskOfOneSample) {
+  const Target target = gpu.MakeTarget({.width = 4, .height = 1});
+  gpu.Clear(target, {0, 0, 0, 0});
+  gpu.SetTarget(target);
+  const uint32_t masks[] = {0x1, 0x0, 0x2, ~0u};
+  for (uint32_t i = 0; i < 4; ++i) {
+    context.OMSetBlendState(nullptr, nullptr, masks[i]);
+    const float left = float(i) / 2 - 1;
+    gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {left, 1, left + 0.5f, -1}});
+  }
+  EXPECT_TRUE(Matches(gpu.Read(target), [&](uint32_t x, auto) {
+    return masks[x] & 1 ? Rgba8{255, 255, 255, 255} : Rgba8{0, 0, 0, 0};
+  }));
+}
+
 TEST_P(MsaaTest, WrongResolvesAreReported) {
   const Target target = Start(16);
   const Ref<ITexture> small =

@@ -151,6 +151,97 @@ TEST_P(QueryTest, WrongOrderIsReported) {
   EXPECT_EQ(sink.Count(MsgCode::QueryOrder), 3) << sink.Dump();
 }
 
+// Queries of one kind nest and overlap; each counts what is drawn between its own Begin and End.
+TEST_P(QueryTest, QueriesOfAKindOverlap) {
+  RHI_NEEDS_CAP(occlusionPrecise);
+  Start();
+  const auto draw = [&](uint32_t pixels) {
+    gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = Pixels(0, 0, pixels, 1), .extra = {0.1f, 0, 0, 0}});
+  };
+  context.OMSetDepthStencilState(gpu.DepthStencil({.depthEnable = false}).get());
+  const Ref<IQuery> a = gpu.Query(QueryType::Occlusion), b = gpu.Query(QueryType::Occlusion),
+                    c = gpu.Query(QueryType::OcclusionPredicate);
+  for (int round = 0; round < 2; ++round) {
+    context.Begin(a.get());
+    draw(1);
+    context.Begin(b.get());
+    draw(2);
+    context.Begin(c.get());
+    context.End(a.get());
+    draw(4);
+    context.End(c.get());
+    draw(8);
+    context.End(b.get());
+    draw(16);
+    EXPECT_EQ(gpu.Result<uint64_t>(a.get()), 3u);
+    EXPECT_EQ(gpu.Result<uint64_t>(b.get()), 14u);
+    EXPECT_TRUE(gpu.Result<bool>(c.get()));
+  }
+}
+
+TEST_P(QueryTest, StatisticsOverlapAndCountDispatches) {
+  RHI_NEEDS_CAP(pipelineStatistics);
+  RHI_NEEDS_CAP(compute);
+  const Target target = Start();
+  const Ref<IQuery> outer = gpu.Query(QueryType::PipelineStatistics), inner = gpu.Query(QueryType::PipelineStatistics);
+  const Ref<IBuffer> out = gpu.BufferOf(Bind::UnorderedAccess, std::vector<uint32_t>(1), 4);
+  const Ref<IUnorderedAccessView> view = gpu.WriteView(out.get());
+  IUnorderedAccessView* raw = view.get();
+  context.CSSetUnorderedAccessViews(1, 1, &raw);
+  context.CSSetShader(gpu.Shader(test_shaders::compute_CSCount).get());
+  context.Begin(outer.get());
+  gpu.DrawRect(test_shaders::rect_PSTint, {.extra = {0.1f, 0, 0, 0}});
+  context.Begin(inner.get());
+  context.Dispatch(3, 2, 1);
+  context.End(inner.get());
+  gpu.DrawRect(test_shaders::rect_PSTint, {.extra = {0.1f, 0, 0, 0}});
+  context.End(outer.get());
+  const auto o = gpu.Result<PipelineStatistics>(outer.get()), i = gpu.Result<PipelineStatistics>(inner.get());
+  EXPECT_EQ(o.iaVertices, 8u);
+  EXPECT_EQ(i.iaVertices, 0u);
+  EXPECT_EQ(o.csInvocations, 6u);
+  EXPECT_EQ(i.csInvocations, 6u);
+}
+
+// Null data only asks whether the result is there; other sizes than the result's are refused.
+TEST_P(QueryTest, GetDataWithoutMemoryAndOfOtherSizes) {
+  Start();
+  const Ref<IQuery> q = gpu.Query(QueryType::Occlusion);
+  context.Begin(q.get());
+  context.End(q.get());
+  EXPECT_EQ(gpu.Result<uint64_t>(q.get()), 0u);
+  EXPECT_EQ(context.GetData(q.get(), nullptr, 0, true), Status::Ok);
+  sink.Expect(MsgCode::OutOfBounds, "too little and too much memory");
+  std::array<uint8_t, 16> data{};
+  EXPECT_EQ(context.GetData(q.get(), data.data(), 4, true), Status::InvalidArg);
+  EXPECT_EQ(context.GetData(q.get(), data.data(), 16, true), Status::InvalidArg);
+  EXPECT_EQ(sink.Count(MsgCode::OutOfBounds), 2);
+}
+
+TEST_P(QueryTest, NoQueryIsReported) {
+  sink.Expect(MsgCode::QueryOrder, "no query");
+  context.Begin(nullptr);
+  context.End(nullptr);
+  uint64_t value;
+  EXPECT_EQ(context.GetData(nullptr, &value, sizeof value, true), Status::InvalidArg);
+  EXPECT_EQ(sink.Count(MsgCode::QueryOrder), 3);
+}
+
+// Debug markers nest, within passes and over frames, and change nothing.
+TEST_P(QueryTest, DebugMarkersNest) {
+  const Target target = Start();
+  context.BeginEvent("frame");
+  context.BeginEvent("pass");
+  gpu.DrawRect(test_shaders::rect_PSTint, {.extra = {0.1f, 0, 0, 0}});
+  context.EndEvent();
+  context.Flush();
+  context.BeginEvent("over a frame");
+  context.EndFrame();
+  context.EndEvent();
+  context.EndEvent();
+  EXPECT_TRUE(Matches(gpu.Read(target), [](auto, auto) { return Rgba8{255, 255, 255, 255}; }));
+}
+
 RHI_ON_EVERY_BACKEND(QueryTest);
 
 }  // namespace

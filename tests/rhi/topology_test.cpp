@@ -161,6 +161,56 @@ TEST_P(TopologyTest, StripCutIndex) {
     }
 }
 
+// Strips with adjacency are cut, too: each part is assembled by itself, and a part that is too short is dropped.
+TEST_P(TopologyTest, StripsWithAdjacencyAreCut) {
+  RHI_NEEDS_CAP(geometryShader);
+  const std::vector<uint32_t> indices{10, 11, 12, 13, 14, 15, 16, 17, ~0u, 20, 21, 22, 23, 24, 25, ~0u, 30, 31, 32, 33};
+  const Ref<IBuffer> wide = gpu.BufferOf(Bind::IndexBuffer, indices);
+  std::vector<uint16_t> halves;
+  for (const uint32_t i : indices) halves.push_back(uint16_t(i));
+  const Ref<IBuffer> narrow = gpu.BufferOf(Bind::IndexBuffer, halves);
+  for (const PrimitiveTopology topology : {PrimitiveTopology::TriangleStripAdj, PrimitiveTopology::LineStripAdj}) {
+    Primitives expected;
+    for (const auto& [first, count] : {std::pair{0u, 8u}, std::pair{9u, 6u}, std::pair{16u, 4u}})
+      for (Primitive p : Assemble(topology, count)) {
+        for (uint32_t& vertex : p) vertex += first;
+        expected.push_back(p);
+      }
+    for (const bool is16 : {false, true}) {
+      Prepare(topology);
+      context.IASetIndexBuffer(is16 ? narrow.get() : wide.get(), is16 ? Format::R16_UInt : Format::R32_UInt, 0);
+      context.DrawIndexed(uint32_t(indices.size()), 0, 0);
+      EXPECT_TRUE(Matches(gpu.Read(target), Picture(expected, indices))) << ToString(topology) << is16;
+    }
+  }
+}
+
+// The cut is the index as it stands in the buffer, before the base vertex is added; instances begin anew.
+TEST_P(TopologyTest, CutComesBeforeTheBaseVertex) {
+  RHI_NEEDS_CAP(geometryShader);
+  const Ref<IBuffer> b = gpu.BufferOf(Bind::IndexBuffer, std::vector<uint16_t>{11, 12, 13, 0xFFFF, 21, 22, 23, 24});
+  const std::vector<uint32_t> seen{11, 12, 13, 0, 21, 22, 23, 24};  // SV_VertexID is without the base
+  const Primitives expected{{0, 1, 2}, {4, 5, 6}, {5, 7, 6}};
+  Prepare(PrimitiveTopology::TriangleStrip);
+  context.IASetIndexBuffer(b.get(), Format::R16_UInt, 0);
+  for (const int32_t base : {0, 5, -11, 70000}) {
+    gpu.Clear(target, {0, 0, 0, 0});
+    context.DrawIndexed(8, 0, base);
+    EXPECT_TRUE(Matches(gpu.Read(target), Picture(expected, seen))) << base;
+  }
+}
+
+// Lists are not cut: the greatest index is a vertex number there.
+TEST_P(TopologyTest, ListsAreNotCut) {
+  RHI_NEEDS_CAP(geometryShader);
+  const Ref<IBuffer> b = gpu.BufferOf(Bind::IndexBuffer, std::vector<uint16_t>{1, 2, 0xFFFF, 3, 4, 5});
+  Prepare(PrimitiveTopology::TriangleList);
+  context.IASetIndexBuffer(b.get(), Format::R16_UInt, 0);
+  context.DrawIndexed(6, 0, 0);
+  EXPECT_TRUE(Matches(gpu.Read(target), Picture({{0, 1, 2}, {3, 4, 5}}, {1, 2, 254, 3, 4, 5})))
+      << "65536 is clamped to 255";
+}
+
 // 0xFFFF is an index like any other where indices have 32 bits.
 TEST_P(TopologyTest, NoCutAt16BitsOf32BitIndices) {
   RHI_NEEDS_CAP(geometryShader);

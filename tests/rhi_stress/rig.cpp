@@ -19,6 +19,8 @@ Rig::Rig(Backend backend, bool validation) {
   context = device->ImmediateContext();
 }
 
+Rig::Rig(Ref<IDevice> made) : device(std::move(made)), context(device->ImmediateContext()) {}
+
 Rig::~Rig() {
   if (device) context->ClearState();
 }

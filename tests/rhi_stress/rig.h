@@ -38,6 +38,7 @@ struct Target {
 class Rig {
  public:
   Rig(rhi::Backend, bool validation);
+  explicit Rig(rhi::Ref<rhi::IDevice>);  // whose messages go elsewhere
   ~Rig();
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;

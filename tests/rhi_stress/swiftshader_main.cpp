@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 
@@ -15,8 +14,7 @@ constexpr const char* kInChild = "FUR_SWIFTSHADER_CHILD";
 
 int RunInChild(const std::string& icd, char** argv) {
   setenv(kInChild, "1", 1);
-  setenv("VK_ICD_FILENAMES", icd.c_str(), 1);  // of old loaders
-  setenv("VK_DRIVER_FILES", icd.c_str(), 1);
+  rhi_stress::UseOnlyDriver(icd);
   pid_t child = 0;
   if (posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, argv, environ) != 0) return 1;
   int status = 0;
@@ -25,16 +23,6 @@ int RunInChild(const std::string& icd, char** argv) {
 }
 
 }  // namespace
-
-namespace rhi_stress {
-
-std::string SwiftShaderIcd() {
-  const char* named = std::getenv("FUR_SWIFTSHADER_ICD");
-  const std::string path = named ? named : "/usr/lib/chromium/vk_swiftshader_icd.json";
-  return access(path.c_str(), R_OK) == 0 ? path : "";
-}
-
-}  // namespace rhi_stress
 
 int main(int argc, char** argv) {
   const std::string icd = rhi_stress::SwiftShaderIcd();

@@ -132,6 +132,29 @@ TEST_F(SwiftShaderTest, DrawsFromVertexBuffers) {
   }));
 }
 
+// The driver has no shaderDrawParameters: where a draw starts is told to the shader by other means. Direct and indirect
+// draws take turns, each on a column of its own; a corner that counts from elsewhere would miss it. (Draw binds all,
+// and draws a rectangle without area.)
+TEST_F(SwiftShaderTest, VertexIdsCountFromZeroWhereverADrawStarts) {
+  constexpr std::array<DrawArgs, 2> kArgs{{{4, 1, 7, 0}, {4, 1, 400, 3}}};
+  const Ref<IBuffer> args = rig->Buffer(
+      {.byteWidth = sizeof kArgs, .usage = Usage::Immutable, .bind = Bind::IndirectArgs}, kArgs.data());
+  const Target target = rig->MakeTarget(8);
+  Clear(target, {0, 0, 0, 0});
+  for (uint32_t column = 0; column < 8; ++column) {
+    const float left = float(column) / 4 - 1;
+    const float blue = float(column + 1) / 255;
+    Draw(target, stress_shaders::stress_PSTint, {.tint = {1, 0, blue, 1}, .rectangle = {left, 1, left + 0.25f, 1}});
+    rig->SetConstants(rig->Constants().get(), {.tint = {0, 1, blue, 1}, .rectangle = {left, 1, left + 0.25f, -1}});
+    if (column % 3 == 0) rig->context->Draw(4, column * 5);
+    if (column % 3 == 1) rig->context->DrawInstancedIndirect(args.get(), column % 2 * sizeof(DrawArgs));
+    if (column % 3 == 2) rig->context->DrawInstanced(4, 1, column, column);
+  }
+  EXPECT_TRUE(Matches(rig->Read(target.texture.get()), [](uint32_t x, uint32_t) {
+    return Rgba8{0, 255, uint8_t(x + 1), 255};
+  }));
+}
+
 TEST_F(SwiftShaderTest, ReadsBuffersBack) {
   std::vector<uint32_t> data(1024);
   for (uint32_t i = 0; i < 1024; ++i) data[i] = i * 2654435761u;

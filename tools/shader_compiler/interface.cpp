@@ -4,6 +4,8 @@
 #include <cctype>
 #include <set>
 
+#include "rhi/shader.h"
+
 namespace shaderc {
 namespace {
 
@@ -134,6 +136,24 @@ void LocateBySemantic(Module& module, const Semantics& semantics, rhi::Stage sta
   const bool geometry = stage == rhi::Stage::Geometry;
   if (geometry || stage == rhi::Stage::Pixel) Locate(all, spv::StorageClassInput, geometry);
   if (geometry || stage == rhi::Stage::Vertex) Locate(all, spv::StorageClassOutput, false);
+}
+
+void MakeSecondSource(Module& module) {
+  const Semantics none;
+  const Interface all = Read(module, none);
+  std::map<uint32_t, uint32_t> byLocation;
+  for (const Variable& v : all.variables)
+    if (const auto at = all.locations.find(v.id); v.storage == spv::StorageClassOutput && at != all.locations.end())
+      byLocation[*at->second] = v.id;
+  if (byLocation.size() != 2 || !byLocation.contains(0) || !byLocation.contains(1))
+    throw CompileError(std::string(rhi::kDualSourceMacro) +
+                       " needs a pixel shader of SV_Target0 and SV_Target1, no more");
+  const uint32_t second = byLocation[1];
+  *all.locations.at(second) = 0;
+  const auto location = std::find_if(module.code.begin(), module.code.end(), [&](const Instruction& i) {
+    return i.op == spv::OpDecorate && i.words[0] == second && i.words[1] == spv::DecorationLocation;
+  });
+  module.code.insert(location, {spv::OpDecorate, {second, spv::DecorationIndex, 1}});
 }
 
 }  // namespace shaderc

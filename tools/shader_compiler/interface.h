@@ -33,4 +33,8 @@ std::vector<VertexInput> ReadVertexInputs(const Module&, const Semantics&);
 // would read its neighbour. Renumbers them by semantic: the same semantic is the same location in every shader.
 void LocateBySemantic(Module&, const Semantics&, rhi::Stage);
 
+// Of a pixel shader for blending with two sources (rhi::kDualSourceMacro): SV_Target1 becomes the second source of target
+// 0, which Direct3D 10 decides by the blend factors, and Vulkan and GL in the shader.
+void MakeSecondSource(Module&);
+
 }  // namespace shaderc

@@ -54,6 +54,8 @@ void Compile(const Options& options) {
   const bool vertex = options.stage == rhi::Stage::Vertex;
   const std::vector<VertexInput> inputs = vertex ? ReadVertexInputs(module, semantics) : std::vector<VertexInput>{};
   LocateBySemantic(module, semantics, options.stage);
+  if (std::find(options.defines.begin(), options.defines.end(), rhi::kDualSourceMacro) != options.defines.end())
+    MakeSecondSource(module);
   const bool usesVertexId = SubtractBase(module, spv::BuiltInVertexIndex, spv::BuiltInBaseVertex);
   StripLines(module);
   GlslResult glsl = SpirvToGlsl(module.Words(), options.stage);

@@ -6,24 +6,26 @@
 
 namespace rhi {
 
+// [v]: only rhi/validation.h says it; without the wrapper the case is undefined or harmless.
 enum class MsgCode : uint16_t {
   None = 0,
   // 1xx: creation
-  DeviceUnavailable = 100,
-  CapMissing = 101,
-  InvalidDesc = 102,
+  DeviceUnavailable = 100,  // no adapter that fits DeviceDesc
+  CapMissing = 101,         // Status::Unsupported: the text names the cap or the format's support
+  InvalidDesc = 102,        // a descriptor breaks a rule, or a pointer that must not be null is
   OutOfMemory = 103,
-  ShaderRejected = 104,
-  LayoutMismatch = 105,
+  ShaderRejected = 104,  // by the driver: when it is made, or at the first draw
+  LayoutMismatch = 105,  // an input of the vertex shader without an element; a draw with a layout that lacks one
   ImmutableWrite = 106,
-  LiveObjects = 107,  // an object is still referenced when its device goes
+  LiveObjects = 107,  // [v] an object is still referenced when its device goes
+  PipelineCacheRefused = 108,  // DeviceDesc::pipelineCache is damaged, or of another driver; it is ignored
   // 2xx: binding
   TargetStillBoundAsInput = 200,  // a target's shader view was unbound, as Direct3D 10 does
-  InputStillBoundAsTarget = 201,
+  InputStillBoundAsTarget = 201,  // a shader view of what is bound as a target was bound as null, likewise
   SlotOutOfRange = 202,
-  WrongBindFlag = 203,
+  WrongBindFlag = 203,  // views, mips, indirect arguments; [v] buffers that are bound
   WrongStage = 204,
-  ForeignObject = 205,  // of another device, or destroyed
+  ForeignObject = 205,  // [v] of another device, or destroyed
   // 3xx: drawing
   NoVertexShader = 300,
   NoTarget = 301,
@@ -31,29 +33,29 @@ enum class MsgCode : uint16_t {
   NothingBound = 303,   // a shader reads a register with nothing bound; it reads 0
   TopologyMismatch = 304,
   IndexBufferMissing = 305,
-  ViewMismatch = 306,       // a view's kind or dimension is another than the shader declares
-  StrideMismatch = 307,     // a structured buffer's stride is another than the shader's
-  ConstantsTooSmall = 308,  // a constant buffer holds less than the shader's block
-  ViewportOutside = 309,
+  ViewMismatch = 306,       // [v] a view's kind or dimension is another than the shader declares
+  StrideMismatch = 307,     // [v] a structured buffer's stride is another than the shader's
+  ConstantsTooSmall = 308,  // [v] a constant buffer holds less than the shader's block
+  ViewportOutside = 309,    // [v] a viewport shows nothing of the targets (Warning), or reaches beyond (Info)
   // 4xx: data
-  MapMode = 400,
+  MapMode = 400,  // a way of writing or mapping that the usage does not allow
   MapTwice = 401,
-  OutOfBounds = 402,
-  SubresourceOutOfRange = 403,
-  FormatMismatch = 404,
-  MappedInUse = 405,    // a mapped resource is used by a draw, dispatch or copy
-  MapOpen = 406,        // a resource is mapped at EndFrame
-  PitchTooSmall = 407,  // rows or slices of the caller's data overlap
+  OutOfBounds = 402,            // bytes, elements, boxes, sizes of results
+  SubresourceOutOfRange = 403,  // also of views
+  FormatMismatch = 404,         // formats, sizes, sample counts or kinds of resources that do not go together
+  MappedInUse = 405,            // [v] a mapped resource is used by a draw, dispatch or copy
+  MapOpen = 406,                // [v] a resource is mapped at EndFrame
+  PitchTooSmall = 407,          // [v] rows or slices of the caller's data overlap
   // 5xx: queries and debug events
-  QueryOrder = 500,
-  QueryOpen = 501,   // begun and never ended, or open at EndFrame
-  QueryEmpty = 502,  // nothing was drawn between Begin and End
-  EventOpen = 503,   // BeginEvent without EndEvent at EndFrame
+  QueryOrder = 500,  // also an EndEvent too many (Warning)
+  QueryOpen = 501,   // [v] begun and never ended, or open at EndFrame
+  QueryEmpty = 502,  // [v] nothing was drawn between Begin and End
+  EventOpen = 503,   // [v] BeginEvent without EndEvent at EndFrame
   // 6xx: swap chain
-  SurfaceLost = 600,
+  SurfaceLost = 600,  // the window is gone
   // 9xx: from outside
   ApiValidation = 900,  // Vulkan validation layer or GL debug output
-  DeviceLost = 901
+  DeviceLost = 901      // the GPU was reset or does not finish: make the device anew
 };
 
 struct Message {

@@ -1,4 +1,5 @@
-// Intrusive reference: owns one count of an object with AddRef and Release (COM's rule, as in Direct3D 10).
+// Intrusive reference: owns one count of an object with AddRef and Release (COM's rule, as in Direct3D 10). Ref(p)
+// takes a count of its own, Adopt(p) the caller's; get() gives none away. Converts to a Ref of a base.
 #pragma once
 
 #include <cstddef>

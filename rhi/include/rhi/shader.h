@@ -15,10 +15,10 @@
 // Structured buffers: i counts the structured t registers of one shader in slot order; at most kGlMaxBuffers[stage].
 // GL's gl_VertexID of a non-indexed draw includes the first vertex; shaders that read SV_VertexID subtract
 // `rhi_FirstVertex`, an int at offset 0 of the uniform block kGlDrawParametersBlock (see usesVertexId).
-// GL's window has its origin at the bottom: the last stage before the rasterizer negates gl_Position.y, so that row 0 is
-// the top. Geometry shaders always do; a vertex shader does where the macro kGlLastStageMacro is defined. (Clip control's
-// GL_UPPER_LEFT would do the same, but Mesa's rasterizer then takes the bottom row, not the top row, for an edge exactly
-// through pixel centres, which Direct3D's and Vulkan's top-left rule forbids.)
+// GL's window has its origin at the bottom: the last stage before the rasterizer negates gl_Position.y, so that row 0
+// is the top. Geometry shaders always do; a vertex shader does where the macro kGlLastStageMacro is defined. (Clip
+// control's GL_UPPER_LEFT would do the same, but Mesa's rasterizer then takes the bottom row, not the top row, for an
+// edge exactly through pixel centres, which Direct3D's and Vulkan's top-left rule forbids.)
 #pragma once
 
 #include "rhi/types.h"
@@ -33,6 +33,9 @@ inline constexpr std::array<uint32_t, kStageCount> kGlMaxBuffers{4, 4, 4, 8};
 inline constexpr uint32_t kGlUavBufferBase = 8;
 inline constexpr uint32_t kGlDrawParametersBlock = 4;
 inline constexpr const char* kGlLastStageMacro = "RHI_LAST_STAGE_BEFORE_RASTERIZER";
+// Compiled with this define, a pixel shader's SV_Target1 is the second source of target 0 (Blend::Src1Color and kin).
+// Direct3D 10 decides that by the blend factors; Vulkan and GL in the shader.
+inline constexpr const char* kDualSourceMacro = "RHI_DUAL_SOURCE";
 inline constexpr uint8_t kNoSampler = 0xFF;
 
 enum class ShaderResourceKind : uint8_t { Texture, StructuredBuffer, RWTexture, RWStructuredBuffer };

@@ -5,8 +5,7 @@
 //
 //  - Messages say what is wrong, the actual state, and what to do. What a backend reports too keeps the backend's code.
 //  - An Error is reported and the call ignored; after a Warning or Info it goes on to the backend. A backend may then
-//  add
-//    its own message of the same code (registers with nothing bound, say).
+//    add its own message of the same code (registers with nothing bound, say).
 //  - The same code for the same object is reported once between two EndFrames.
 //  - Objects are the backend's own. Those that were not made through the wrapper are ForeignObject to it. It holds a
 //    count of each object until the EndFrame after the caller's last Release, so that it can tell objects of another

@@ -12,14 +12,36 @@ struct LayerOut {
   float2 uv : TEXCOORD0;
   uint layer : SV_RenderTargetArrayIndex;
 };
-[maxvertexcount(12)]
+#ifndef COUNT
+#define COUNT 4
+#endif
+[maxvertexcount(3 * COUNT)]
 void GSMain(triangle Varying v[3], inout TriangleStream<LayerOut> stream) {
-  for (uint layer = 0u; layer < 4u; ++layer) {
+  for (uint layer = 0u; layer < uint(COUNT); ++layer) {
     [unroll] for (uint i = 0u; i < 3u; ++i) {
       LayerOut o;
       o.position = v[i].position;
       o.uv = float2(float(layer + 1u) / 255.0, 0);
       o.layer = layer;
+      stream.Append(o);
+    }
+    stream.RestartStrip();
+  }
+}
+#elif defined(VIEWPORTS)
+struct ViewportOut {
+  float4 position : SV_Position;
+  float2 uv : TEXCOORD0;
+  uint viewport : SV_ViewportArrayIndex;
+};
+[maxvertexcount(12)]
+void GSMain(triangle Varying v[3], inout TriangleStream<ViewportOut> stream) {
+  for (uint viewport = 0u; viewport < 4u; ++viewport) {
+    [unroll] for (uint i = 0u; i < 3u; ++i) {
+      ViewportOut o;
+      o.position = v[i].position;
+      o.uv = float2(float(viewport + 1u) / 255.0, 0);
+      o.viewport = viewport;
       stream.Append(o);
     }
     stream.RestartStrip();

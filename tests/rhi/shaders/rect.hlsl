@@ -26,6 +26,14 @@ TwoTargets PSTwoTargets(Varying v) {
   return o;
 }
 
+// For blending with two sources.
+TwoTargets PSTwoSources(Varying v) {
+  TwoTargets o;
+  o.a = tint;
+  o.b = extra.yzwx;
+  return o;
+}
+
 struct ColorAndDepth {
   float4 color : SV_Target;
   float depth : SV_Depth;

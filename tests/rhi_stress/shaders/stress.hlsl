@@ -43,3 +43,9 @@ void GSMain(triangle Varying v[3], inout TriangleStream<Varying> stream) {
 float4 PSTint(Varying v) : SV_Target { return tint; }
 float4 PSTinted(Varying v) : SV_Target { return tint.bgra; }
 float4 PSPicture(Varying v) : SV_Target { return picture.Sample(picked, v.uv) * tint; }
+
+RWStructuredBuffer<uint4> words : register(u0);
+[numthreads(4, 1, 1)]
+void CSFill(uint3 id : SV_DispatchThreadID) {
+  words[id.x] = uint4(id.x, 1u, 2u, 3u);
+}

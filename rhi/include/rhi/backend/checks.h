@@ -16,6 +16,12 @@ Status CheckTextureDesc(TextureDesc*, const SubresourceData* init, const Caps&, 
 Status ResolveTextureView(const TextureDesc&, const ViewDesc*, Bind need, ViewDesc* out, const MessageLog&);
 Status ResolveBufferView(const BufferDesc&, const ViewDesc*, Bind need, ViewDesc* out, const MessageLog&);
 
+// Enums in range, and the caps that the state asks for.
+Status CheckBlendDesc(const BlendDesc&, const Caps&, const MessageLog&);
+Status CheckDepthStencilDesc(const DepthStencilDesc&, const MessageLog&);
+Status CheckRasterizerDesc(const RasterizerDesc&, const Caps&, const MessageLog&);
+Status CheckSamplerDesc(const SamplerDesc&, const Caps&, const MessageLog&);
+
 // Also that the device has swap chains at all.
 Status CheckSwapChainDesc(const SwapChainDesc&, const Caps&, const MessageLog&);
 TextureDesc BackBufferDesc(uint32_t width, uint32_t height, Format);

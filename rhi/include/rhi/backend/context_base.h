@@ -94,7 +94,7 @@ class ContextBase : public IContext {
 
  private:
   template <class T>
-  bool Replace(Ref<T>& slot, T* value);  // false: it was bound already
+  void Replace(Ref<T>& slot, T* value, uint32_t dirty);  // sets `dirty` unless it was bound already
   bool CheckSlots(const char* what, uint32_t first, uint32_t count, uint32_t limit);
   bool BoundAsTarget(const IView& input) const;
   void UnbindInputsOf(const IView& target);

@@ -1,0 +1,236 @@
+// One misuse has one code, whoever sees it: each backend by itself, the null device, and the validation.
+#include <array>
+#include <functional>
+
+#include "fixture.h"
+#include "rhi_gl/rhi_gl.h"
+#include "rhi_validation_shaders/shaders.h"
+#include "rhi_vulkan/rhi_vulkan.h"
+
+namespace validation_test {
+namespace {
+
+using namespace rhi;
+
+// One buffer and one texture of each usage, and what a draw needs.
+struct Objects {
+  explicit Objects(IDevice& device);
+  IDevice& d;
+  IContext& c;
+  Ref<IBuffer> plain, small, dynamic, fixed, staging, constants;
+  Ref<ITexture> picture, other, half, floats, samples, depth, fixedPicture, stagingPicture, blocks;
+  Ref<IRenderTargetView> rtv;
+  Ref<IShader> vs, ps;
+  Ref<IInputLayout> layout;
+  Ref<IQuery> occlusion, event;
+  std::array<uint8_t, 4096> bytes{};
+  Mapped m;
+
+  Ref<IBuffer> Buffer(BufferDesc desc) {
+    Ref<IBuffer> b;
+    EXPECT_EQ(d.CreateBuffer(desc, bytes.data(), &b), Status::Ok);
+    return b;
+  }
+  Ref<ITexture> Texture(TextureDesc desc, bool init = false) {
+    Ref<ITexture> t;
+    const SubresourceData data{bytes.data(), desc.width * 4, desc.width * desc.height * 4};
+    EXPECT_EQ(d.CreateTexture(desc, init ? &data : nullptr, &t), Status::Ok);
+    return t;
+  }
+  Status Map(IResource* r, MapMode mode, uint32_t subresource = 0) { return c.Map(r, subresource, mode, &m); }
+  void Update(IResource* r, const Box* box = nullptr, uint32_t subresource = 0) {
+    c.UpdateSubresource(r, subresource, box, bytes.data(), 0, 0);
+  }
+  void Copy(IResource* dst, uint32_t x, IResource* src, const Box* box, uint32_t dstSub = 0, uint32_t srcSub = 0) {
+    c.CopySubresourceRegion(dst, dstSub, x, 0, 0, src, srcSub, box);
+  }
+  void View(const ViewDesc& desc) {
+    Ref<IShaderResourceView> none;
+    EXPECT_EQ(d.CreateShaderResourceView(picture.get(), &desc, &none), Status::InvalidArg);
+  }
+  void SetTarget() {
+    IRenderTargetView* target = rtv.get();
+    const Viewport viewport{0, 0, 8, 8, 0, 1};
+    c.OMSetRenderTargets(1, &target, nullptr);
+    c.RSSetViewports(1, &viewport);
+  }
+  void SetShaders() {
+    c.VSSetShader(vs.get());
+    c.PSSetShader(ps.get());
+  }
+};
+
+Objects::Objects(IDevice& device) : d(device), c(*device.ImmediateContext()) {
+  constexpr Format f = Format::RGBA8_UNorm;
+  plain = Buffer({.byteWidth = 64, .bind = Bind::VertexBuffer});
+  small = Buffer({.byteWidth = 32, .bind = Bind::IndirectArgs});
+  dynamic = Buffer({.byteWidth = 64, .usage = Usage::Dynamic, .bind = Bind::VertexBuffer});
+  fixed = Buffer({.byteWidth = 64, .usage = Usage::Immutable, .bind = Bind::VertexBuffer});
+  staging = Buffer({.byteWidth = 64, .usage = Usage::Staging});
+  constants = Buffer({.byteWidth = 64, .usage = Usage::Dynamic, .bind = Bind::ConstantBuffer});
+  picture = Texture({.width = 8, .height = 8, .format = f, .bind = Bind::ShaderResource | Bind::RenderTarget});
+  other = Texture({.width = 8, .height = 8, .format = f});
+  half = Texture({.width = 4, .height = 4, .format = f});
+  floats = Texture({.width = 8, .height = 8, .format = Format::R32_Float});
+  samples = Texture(
+      {.dim = TextureDim::Tex2DMS, .width = 8, .height = 8, .sampleCount = 4, .format = f, .bind = Bind::RenderTarget});
+  depth = Texture({.width = 8, .height = 8, .format = Format::D32_Float, .bind = Bind::DepthStencil});
+  fixedPicture = Texture({.width = 8, .height = 8, .format = f, .usage = Usage::Immutable}, true);
+  stagingPicture = Texture({.width = 8, .height = 8, .format = f, .usage = Usage::Staging, .bind = Bind::None});
+  blocks = Texture({.width = 8, .height = 8, .format = Format::BC1_UNorm});
+  EXPECT_EQ(d.CreateRenderTargetView(picture.get(), nullptr, &rtv), Status::Ok);
+  EXPECT_EQ(d.CreateShader(validation_shaders::triangle_VSMain, &vs), Status::Ok);
+  EXPECT_EQ(d.CreateShader(validation_shaders::triangle_PSMain, &ps), Status::Ok);
+  const InputElement position{.semantic = "POSITION", .format = Format::RGBA32_Float};
+  EXPECT_EQ(d.CreateInputLayout(&position, 1, vs.get(), &layout), Status::Ok);
+  EXPECT_EQ(d.CreateQuery({QueryType::Occlusion}, &occlusion), Status::Ok);
+  EXPECT_EQ(d.CreateQuery({QueryType::Event}, &event), Status::Ok);
+}
+
+struct MisuseCase {
+  const char* name;
+  MsgCode code;
+  std::function<void(Objects&)> call;
+  bool nullSeesIt = true;  // the null device takes every draw
+};
+
+constexpr Box kBeyond{4, 4, 0, 12, 8, 1}, kLeft{0, 0, 0, 32, 1, 1}, kPart{1, 0, 0, 4, 4, 1},
+    kTooMuch{0, 0, 0, 33, 1, 1};
+
+std::vector<MisuseCase> Cases() {
+  using O = Objects;
+  using enum MsgCode;
+  return {
+      {"CopyOfUnequalBuffers", FormatMismatch, [](O& o) { o.c.CopyResource(o.plain.get(), o.small.get()); }},
+      {"CopyOfUnequalTextures", FormatMismatch, [](O& o) { o.c.CopyResource(o.picture.get(), o.half.get()); }},
+      {"CopyOfOtherFormat", FormatMismatch, [](O& o) { o.c.CopyResource(o.picture.get(), o.floats.get()); }},
+      {"CopyOfOtherSamples", FormatMismatch, [](O& o) { o.c.CopyResource(o.picture.get(), o.samples.get()); }},
+      {"CopyBetweenKinds", FormatMismatch, [](O& o) { o.c.CopyResource(o.plain.get(), o.picture.get()); }},
+      {"CopyToItself", OutOfBounds, [](O& o) { o.c.CopyResource(o.plain.get(), o.plain.get()); }},
+      {"CopyToDynamic", MapMode, [](O& o) { o.c.CopyResource(o.dynamic.get(), o.plain.get()); }},
+      {"CopyToImmutable", ImmutableWrite, [](O& o) { o.c.CopyResource(o.fixed.get(), o.plain.get()); }},
+      {"CopyToImmutableTexture", ImmutableWrite, [](O& o) { o.c.CopyResource(o.fixedPicture.get(), o.picture.get()); }},
+      {"CopyOfNull", InvalidDesc, [](O& o) { o.c.CopyResource(o.plain.get(), nullptr); }},
+      {"RegionToDynamic", MapMode, [](O& o) { o.Copy(o.dynamic.get(), 0, o.plain.get(), nullptr); }},
+      {"RegionBeyondBuffer", OutOfBounds, [](O& o) { o.Copy(o.plain.get(), 48, o.small.get(), &kLeft); }},
+      {"RegionOverItself", OutOfBounds, [](O& o) { o.Copy(o.plain.get(), 16, o.plain.get(), &kLeft); }},
+      {"RegionOfOtherFormat", FormatMismatch, [](O& o) { o.Copy(o.picture.get(), 0, o.floats.get(), nullptr); }},
+      {"RegionBeyondTexture", OutOfBounds, [](O& o) { o.Copy(o.picture.get(), 0, o.other.get(), &kBeyond); }},
+      {"RegionBeyondDestination", OutOfBounds, [](O& o) { o.Copy(o.half.get(), 0, o.picture.get(), nullptr); }},
+      {"RegionOfNoSubresource", SubresourceOutOfRange,
+       [](O& o) { o.Copy(o.picture.get(), 0, o.other.get(), nullptr, 0, 3); }},
+      {"RegionWithinSubresource", OutOfBounds, [](O& o) { o.Copy(o.half.get(), 0, o.half.get(), nullptr); }},
+      {"ResolveOfOneSample", FormatMismatch,
+       [](O& o) { o.c.ResolveSubresource(o.picture.get(), 0, o.other.get(), 0, Format::RGBA8_UNorm); }},
+      {"ResolveOfNoSubresource", SubresourceOutOfRange,
+       [](O& o) { o.c.ResolveSubresource(o.picture.get(), 2, o.samples.get(), 0, Format::RGBA8_UNorm); }},
+      {"ResolveToTwin", FormatMismatch,
+       [](O& o) { o.c.ResolveSubresource(o.picture.get(), 0, o.samples.get(), 0, Format::RGBA8_UNorm_sRGB); }},
+      {"UpdateOfDynamic", MapMode, [](O& o) { o.Update(o.dynamic.get()); }},
+      {"UpdateOfStaging", MapMode, [](O& o) { o.Update(o.stagingPicture.get()); }},
+      {"UpdateOfImmutable", ImmutableWrite, [](O& o) { o.Update(o.fixed.get()); }},
+      {"UpdateBeyondBuffer", OutOfBounds, [](O& o) { o.Update(o.small.get(), &kTooMuch); }},
+      {"UpdateBeyondTexture", OutOfBounds, [](O& o) { o.Update(o.picture.get(), &kBeyond); }},
+      {"UpdateOffBlocks", OutOfBounds, [](O& o) { o.Update(o.blocks.get(), &kPart); }},
+      {"UpdateOfNoSubresource", SubresourceOutOfRange, [](O& o) { o.Update(o.picture.get(), nullptr, 1); }},
+      {"UpdateOfDepth", FormatMismatch, [](O& o) { o.Update(o.depth.get()); }},
+      {"UpdateOfSamples", FormatMismatch, [](O& o) { o.Update(o.samples.get()); }},
+      {"UpdateWithNarrowRows", PitchTooSmall,
+       [](O& o) { o.c.UpdateSubresource(o.picture.get(), 0, nullptr, o.bytes.data(), 16, 0); }},
+      {"UpdateOfNull", InvalidDesc, [](O& o) { o.Update(nullptr); }},
+      {"TooManyConstants", OutOfBounds, [](O& o) { o.c.UpdateConstants(o.constants.get(), o.bytes.data(), 65); }},
+      {"ConstantsElsewhere", MapMode, [](O& o) { o.c.UpdateConstants(o.plain.get(), o.bytes.data(), 16); }},
+      {"ConstantsNowhere", NothingBound, [](O& o) { o.c.UpdateConstants(nullptr, o.bytes.data(), 16); }},
+      {"MapOfDefault", MapMode, [](O& o) { o.Map(o.plain.get(), MapMode::Read); }},
+      {"MapOfImmutable", ImmutableWrite, [](O& o) { o.Map(o.fixed.get(), MapMode::WriteDiscard); }},
+      {"MapOfDynamicToRead", MapMode, [](O& o) { o.Map(o.dynamic.get(), MapMode::Read); }},
+      {"MapOfStagingToDiscard", MapMode, [](O& o) { o.Map(o.staging.get(), MapMode::WriteDiscard); }},
+      {"MapOfConstantsToAppend", MapMode, [](O& o) { o.Map(o.constants.get(), MapMode::WriteNoOverwrite); }},
+      {"MapOfTexture", MapMode, [](O& o) { o.Map(o.picture.get(), MapMode::Read); }},
+      {"MapOfNoSubresource", SubresourceOutOfRange, [](O& o) { o.Map(o.stagingPicture.get(), MapMode::Read, 1); }},
+      {"MapOfNull", InvalidDesc, [](O& o) { o.Map(nullptr, MapMode::Read); }},
+      {"MapTwice", MapTwice,
+       [](O& o) {
+         EXPECT_EQ(o.Map(o.staging.get(), MapMode::Write), Status::Ok);
+         EXPECT_EQ(o.Map(o.staging.get(), MapMode::Write), Status::InvalidArg);
+         o.c.Unmap(o.staging.get(), 0);
+       }},
+      {"UnmapOfUnmapped", MapMode, [](O& o) { o.c.Unmap(o.staging.get(), 0); }},
+      {"UnmapOfNull", InvalidDesc, [](O& o) { o.c.Unmap(nullptr, 0); }},
+      {"ViewOfNoMip", SubresourceOutOfRange, [](O& o) { o.View({.firstMip = 1}); }},
+      {"ViewOfOtherFormat", FormatMismatch, [](O& o) { o.View({.format = Format::R32_Float}); }},
+      {"ViewWithoutFlag", WrongBindFlag,
+       [](O& o) {
+         Ref<IRenderTargetView> none;
+         EXPECT_EQ(o.d.CreateRenderTargetView(o.other.get(), nullptr, &none), Status::InvalidArg);
+       }},
+      {"SlotTooHigh", SlotOutOfRange,
+       [](O& o) {
+         IBuffer* b = o.constants.get();
+         o.c.SetConstantBuffers(kMaxConstantBuffers, 1, &b);
+       }},
+      {"ShaderOfOtherStage", WrongStage, [](O& o) { o.c.VSSetShader(o.ps.get()); }},
+      {"DrawWithoutShader", NoVertexShader, [](O& o) { o.SetTarget(), o.c.Draw(3, 0); }, false},
+      {"DrawWithoutTarget", NoTarget,
+       [](O& o) {
+         o.SetTarget(), o.SetShaders(), o.c.IASetInputLayout(o.layout.get());
+         o.c.OMSetRenderTargets(0, nullptr, nullptr), o.c.Draw(3, 0);
+       },
+       false},
+      {"DrawWithoutLayout", LayoutMismatch, [](O& o) { o.SetTarget(), o.SetShaders(), o.c.Draw(3, 0); }, false},
+      {"DispatchWithoutShader", NothingBound, [](O& o) { o.c.Dispatch(1, 1, 1); }, false},
+      {"EndWithoutBegin", QueryOrder, [](O& o) { o.c.End(o.occlusion.get()); }},
+      {"BeginOfEvent", QueryOrder, [](O& o) { o.c.Begin(o.event.get()); }},
+      {"DataOfUnended", QueryOrder, [](O& o) { o.c.GetData(o.event.get(), nullptr, 0, true); }},
+  };
+}
+void PrintTo(const MisuseCase& one, std::ostream* out) { *out << one.name; }
+
+enum class Seer { Vulkan, OpenGL, Null, Validation };
+void PrintTo(Seer seer, std::ostream* out) {
+  *out << std::to_array({"vulkan", "gl", "null", "validation"})[size_t(seer)];
+}
+
+class MisuseTest : public testing::TestWithParam<std::tuple<MisuseCase, Seer>> {
+ protected:
+  Ref<IDevice> Open(Seer seer) {
+    const DeviceDesc desc{.preferSoftware = true, .sink = &sink};
+    Ref<IDevice> device;
+    Status s = Status::Unsupported;
+    switch (seer) {
+      case Seer::Vulkan: s = rhi_vulkan::CreateDevice(desc, &device); break;
+      case Seer::OpenGL: s = rhi_gl::CreateDevice(desc, &device); break;
+      case Seer::Null:
+      case Seer::Validation: s = CreateNullDevice(desc, &device); break;
+    }
+    EXPECT_EQ(s, Status::Ok);
+    return seer == Seer::Validation ? WrapWithValidation(device, &sink) : device;
+  }
+  KeepingSink sink;
+};
+
+TEST_P(MisuseTest, HasItsCode) {
+  const auto& [misuse, seer] = GetParam();
+  if (seer == Seer::Null && !misuse.nullSeesIt) GTEST_SKIP() << "the null device takes every draw";
+  const Ref<IDevice> device = Open(seer);
+  ASSERT_TRUE(device) << sink.Dump();
+  Objects objects(*device);
+  std::erase_if(sink.entries, [](const auto& e) { return e.severity == Severity::Info; });
+  ASSERT_TRUE(sink.entries.empty()) << sink.Dump();
+  misuse.call(objects);
+  ASSERT_EQ(sink.entries.size(), 1u) << sink.Dump();
+  EXPECT_EQ(sink.entries[0].code, misuse.code) << sink.Dump();
+  EXPECT_EQ(sink.entries[0].severity, Severity::Error) << sink.Dump();
+  device->ImmediateContext()->ClearState();
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, MisuseTest,
+                         testing::Combine(testing::ValuesIn(Cases()),
+                                          testing::Values(Seer::Vulkan, Seer::OpenGL, Seer::Null, Seer::Validation)),
+                         [](const auto& one) {
+                           constexpr auto kSeers = std::to_array({"_vulkan", "_gl", "_null", "_validation"});
+                           return std::get<0>(one.param).name + std::string(kSeers[size_t(std::get<1>(one.param))]);
+                         });
+
+}  // namespace
+}  // namespace validation_test
