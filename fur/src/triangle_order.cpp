@@ -45,8 +45,11 @@ class Sorter {
  public:
   // `byRank`: the triangle of each rank; ranks are the order where relations leave a choice.
   explicit Sorter(std::vector<uint32_t> byRank)
-      : byRank_(std::move(byRank)), rank_(byRank_.size()), firstNearer_(byRank_.size() + 1, 0),
-        waitsFor_(byRank_.size(), 0), placed_(byRank_.size(), false) {
+      : byRank_(std::move(byRank)),
+        rank_(byRank_.size()),
+        firstNearer_(byRank_.size() + 1, 0),
+        waitsFor_(byRank_.size(), 0),
+        placed_(byRank_.size(), false) {
     for (uint32_t r = 0; r < byRank_.size(); ++r) rank_[byRank_[r]] = r;
   }
 
@@ -99,8 +102,8 @@ TriangleOrder::TriangleOrder(std::span<const FurVertex> vertices, std::span<cons
     roots_.push_back({glm::dvec3(v.position), glm::dvec3(v.direction) * length, length});
   }
   for (size_t i = 0; i + 2 < indices.size(); i += 3)
-    middles_.push_back((roots_[indices[i]].position + roots_[indices[i + 1]].position + roots_[indices[i + 2]].position) /
-                       3.0);
+    middles_.push_back(
+        (roots_[indices[i]].position + roots_[indices[i + 1]].position + roots_[indices[i + 2]].position) / 3.0);
   const std::vector<uint32_t> welded = Welded(vertices, indices.first(middles_.size() * 3));
   const std::vector<Side> sides = SidesByEdge(welded);
   for (size_t first = 0, end = 0; first < sides.size(); first = end) {

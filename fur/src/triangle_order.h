@@ -12,10 +12,10 @@
 namespace fur {
 
 // The fur of a triangle fills its prism, the triangle swept along the fur. Two prisms meet in a wall, which stands on
-// their common edge along the mean way from root to tip at its ends; the one on the eye's side of the wall is nearer. Of
-// two prisms without a common edge nothing is known but what the chains of neighbours between them say. (Sorting cells by
-// the walls between neighbours: Max, Hanrahan, Crawfis, "Area and Volume Coherence for Efficient Visualization of 3D
-// Scalar Functions", 1990.)
+// their common edge along the mean way from root to tip at its ends; the one on the eye's side of the wall is nearer.
+// Of two prisms without a common edge nothing is known but what the chains of neighbours between them say. (Sorting
+// cells by the walls between neighbours: Max, Hanrahan, Crawfis, "Area and Volume Coherence for Efficient Visualization
+// of 3D Scalar Functions", 1990.)
 //
 // A painter's order along every ray from the eye, where there is one and walls are flat: certainly for a convex body
 // whose triangles are those of its points' hull and whose fur points away from one point. Elsewhere it is the best that
@@ -28,8 +28,9 @@ class TriangleOrder {
   TriangleOrder(std::span<const FurVertex> vertices, std::span<const uint32_t> indices);
 
   // The triangles' numbers, farthest first. Eye and comb (offset of the tips relative to the fur's length) in the
-  // vertices' axes. Where the walls leave a choice, and where they run in a circle, the triangle whose middle is farthest
-  // comes first; of equal ones the first of the list. O(n log n). A position that is not finite gives the list's order.
+  // vertices' axes. Where the walls leave a choice, and where they run in a circle, the triangle whose middle is
+  // farthest comes first; of equal ones the first of the list. O(n log n). A position that is not finite gives the
+  // list's order.
   std::vector<uint32_t> BackToFront(const glm::dvec3& eye, const glm::dvec3& comb) const;
 
   size_t TriangleCount() const { return middles_.size(); }

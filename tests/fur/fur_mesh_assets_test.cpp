@@ -33,7 +33,7 @@ Position PositionOf(const V& v) {
 
 // What differs at positions with more than one vertex.
 struct Seams {
-  size_t positions = 0;                           // with several vertices
+  size_t positions = 0;                          // with several vertices
   size_t splitDirections = 0, splitLengths = 0;  // of these
 };
 Seams CountSeams(const FurMesh& mesh) {

@@ -61,8 +61,8 @@ void SetLengthMap(Model* model, const Image& image) {
 }
 
 // ------------------------------------------------------------------------------------------------------ directions
-// Each side of the cube has four vertices of its own with the side's normal. `split` moves one side to a primitive of its
-// own, the first.
+// Each side of the cube has four vertices of its own with the side's normal. `split` moves one side to a primitive of
+// its own, the first.
 std::vector<Primitive> FlatCube(bool split) {
   std::vector<Primitive> primitives(split ? 2 : 1);
   for (int side = 0; side < 6; ++side) {
@@ -93,7 +93,8 @@ TEST(FurMesh, DirectionsCloseACubeWithFlatNormals) {
   const FurMesh mesh = Mesh(Furred(FlatCube(false)));
   ASSERT_EQ(mesh.vertices.size(), 24u);
   ExpectDiagonals(mesh);
-  for (const FurVertex& v : mesh.vertices) EXPECT_EQ(glm::length(glm::vec3(v.normal)), 1) << "the shading normal stays flat";
+  for (const FurVertex& v : mesh.vertices)
+    EXPECT_EQ(glm::length(glm::vec3(v.normal)), 1) << "the shading normal stays flat";
   EXPECT_EQ(glm::vec3(mesh.vertices[0].normal), glm::vec3(-1, 0, 0));
   EXPECT_EQ(mesh.indices.size(), 36u);
   EXPECT_EQ(mesh.edges.size(), 4u * 18u) << "12 edges and 6 diagonals";

@@ -37,20 +37,33 @@ std::vector<FurVertex> Radial(const Body& body) {
   return vertices;
 }
 
-Body Tetrahedron() { return {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}}; }
+Body Tetrahedron() {
+  return {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}};
+}
 
 Body Cube() {
-  Body body{{}, {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5}};
+  Body body{
+      {}, {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5}};
   for (int i = 0; i < 8; ++i) body.points.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
   return body;
 }
 
 Body Icosahedron() {
   const double g = (1 + std::sqrt(5.0)) / 2;
-  Body body{{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
-             {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-            {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4, 11, 10, 2, 10, 7, 6, 7, 1, 8,
-             3, 9, 4, 3, 4, 2, 3, 2, 6, 3, 6, 8, 3, 8, 9, 4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1}};
+  Body body{{{-1, g, 0},
+             {1, g, 0},
+             {-1, -g, 0},
+             {1, -g, 0},
+             {0, -1, g},
+             {0, 1, g},
+             {0, -1, -g},
+             {0, 1, -g},
+             {g, 0, -1},
+             {g, 0, 1},
+             {-g, 0, -1},
+             {-g, 0, 1}},
+            {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4,  11, 10, 2,  10, 7, 6, 7, 1, 8,
+             3, 9,  4, 3, 4, 2, 3, 2, 6, 3, 6, 8,  3, 8,  9,  4, 9, 5, 2, 4,  11, 6,  2,  10, 8,  6, 7, 9, 8, 1}};
   for (glm::dvec3& p : body.points) p = glm::normalize(p);
   return body;
 }
@@ -91,7 +104,8 @@ struct Plane {  // inside: dot(normal, x) <= offset
   glm::dvec3 normal;
   double offset;
 };
-// The fur of a triangle of a radial body: between its walls, which all contain the origin, above the skin, below the tips.
+// The fur of a triangle of a radial body: between its walls, which all contain the origin, above the skin, below the
+// tips.
 std::array<Plane, 5> Prism(const Body& body, size_t triangle) {
   std::array<glm::dvec3, 3> p, tip;
   for (size_t k = 0; k < 3; ++k) {
@@ -177,7 +191,8 @@ TEST(TriangleOrder, EyeInside) {
   Pcg32 random(11);
   size_t pairs = 0;
   for (const Body& body : {Tetrahedron(), Cube(), Icosphere(1)})
-    for (int i = 0; i < 20; ++i) pairs += ExpectPaintersOrder(body, RandomDirection(&random) * 1.1 * random.Uniform(), &random);
+    for (int i = 0; i < 20; ++i)
+      pairs += ExpectPaintersOrder(body, RandomDirection(&random) * 1.1 * random.Uniform(), &random);
   EXPECT_GT(pairs, 1000u);
   for (const glm::dvec3& eye : {glm::dvec3(0), {0, 0, 0.5}, {0, 0, 3}, {1, 1, 1}, {2, 2, 2}, {1, 0, 0}})
     ExpectPaintersOrder(Cube(), eye, &random);
@@ -250,7 +265,8 @@ TEST(TriangleOrder, CirclesAreBrokenByTheFarthest) {
   double most = 0;
   for (size_t t = 0; t < 7; ++t) {
     const glm::dvec3 middle = (body.points[body.indices[3 * t]] + body.points[body.indices[3 * t + 1]] +
-                               body.points[body.indices[3 * t + 2]]) / 3.0;
+                               body.points[body.indices[3 * t + 2]]) /
+                              3.0;
     const double distance = glm::length(middle - glm::dvec3(0.01, 0.02, 5));
     if (distance > most) farthest = t;
     most = std::max(most, distance);
@@ -279,7 +295,8 @@ TEST(TriangleOrder, NothingInNothingOut) {
 }
 
 TEST(TriangleOrder, EqualDistancesKeepTheListsOrder) {
-  const FurVertex a = Root({1, 0, 0}, {0, 0, 1}, 0), b = Root({0, 1, 0}, {0, 0, 1}, 0), c = Root({0, 0, 0}, {0, 0, 1}, 0);
+  const FurVertex a = Root({1, 0, 0}, {0, 0, 1}, 0), b = Root({0, 1, 0}, {0, 0, 1}, 0),
+                  c = Root({0, 0, 0}, {0, 0, 1}, 0);
   EXPECT_EQ(TriangleOrder(std::array{a, b, c}, Indices{0, 1, 2, 1, 2, 0, 2, 0, 1}).BackToFront({0, 0, 9}, kNoComb),
             (Indices{0, 1, 2}));
 }

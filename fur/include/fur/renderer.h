@@ -60,7 +60,7 @@ struct RenderSettings {
   // Technique shells only.
   ShellMode shellMode = ShellMode::Instanced;
   // Amplified: 1..14. Above 1 the triangles are sorted back to front and the picture is that of the other modes only
-  // where the fur of no two limbs overlaps: docs/shells.md.
+  // where the fur of no two limbs overlaps: docs/measured.md.
   uint32_t shellsAtOnce = 1;
   FinMode finMode = FinMode::Auto;
   double finThreshold = 0.25;  // edges with |e.N| below it grow a fading fin, 0..1; 0: silhouettes only
