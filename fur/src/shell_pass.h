@@ -1,5 +1,5 @@
-// The shells of technique `shells`, three ways to the same picture. Seen from behind they come outside in, then seen from
-// the front inside out: shell by shell, or, amplified, some shells of each triangle at a time (docs/measured.md).
+// The shells of technique `shells`, three ways to the same picture. Seen from behind they come outside in, then seen
+// from the front inside out: shell by shell, or, amplified, some shells of each triangle at a time (docs/measured.md).
 #pragma once
 
 #include <vector>
