@@ -249,7 +249,7 @@ TEST(TriangleOrder, WithoutFurOnAnEdgeThereIsNoWall) {
 TEST(TriangleOrder, CirclesAreBrokenByTheFarthest) {
   Body body{{}, {0, 1, 2}};
   for (int i = 0; i < 6; ++i) {
-    const double angle = glm::radians(i < 3 ? 120.0 * i : 120.0 * i + 100), radius = i < 3 ? 1 : 4;
+    const double angle = glm::radians(i < 3 ? 120.0 * i : 120.0 * i + 130), radius = i < 3 ? 1 : 4;
     body.points.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
   }
   for (uint32_t i = 0; i < 3; ++i) {
