@@ -1,4 +1,4 @@
-// Shells by amplification: the geometry shader makes all shells of a triangle.
+// Shells by amplification: the geometry shader makes several shells of a triangle.
 #include "fur_point.hlsli"
 
 FurVertex VSMain(FurVertex v) { return v; }

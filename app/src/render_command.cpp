@@ -37,7 +37,7 @@ const CLI::Validator kFinite(
 struct RenderFlags {
   std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "shells", look = "correct", semantics,
               stats, shellMode = "instanced", finMode = "auto", comb, eye, target, adapter, furFile, furMaterial, background;
-  uint32_t samples = 1, shells = 0, count = 1, repeat = 1;
+  uint32_t samples = 1, shells = 0, shellsAtOnce = 1, count = 1, repeat = 1;
   double fov = 0, zNear = 0, zFar = 0, furLength = 0, uvScale = 0;
   double finThreshold = 0.25, finOpacity = 0.9, combStrength = 1, bend = 2, spacing = 0;
   bool noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
@@ -75,6 +75,7 @@ Result<Done> SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
   s->shellMode = Choose<fur::ShellMode>(f.shellMode, {{"instanced", fur::ShellMode::Instanced},
                                                       {"draws", fur::ShellMode::Draws},
                                                       {"amplified", fur::ShellMode::Amplified}});
+  s->shellsAtOnce = f.shellsAtOnce;
   s->finMode = Choose<fur::FinMode>(f.finMode, {{"auto", fur::FinMode::Auto},
                                                 {"geometry", fur::FinMode::Geometry},
                                                 {"pulled", fur::FinMode::Pulled},
@@ -275,6 +276,9 @@ Result<Done> Render(const RenderFlags& f) {
 void AddShellFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--shell-mode", f->shellMode, "Shells by instances, by a draw each, or amplified by a geometry shader")
       ->check(CLI::IsMember({"instanced", "draws", "amplified"}))->capture_default_str();
+  c->add_option("--shells-at-once", f->shellsAtOnce,
+                "Amplified: shells of a triangle in one go, 1..14; above 1 overlapping limbs look different")
+      ->check(CLI::Range(1u, 14u))->capture_default_str();
   c->add_option("--fins", f->finMode, "Fins by a geometry shader, pulled by the vertex shader, or compacted first; auto: the best there is")
       ->check(CLI::IsMember({"auto", "geometry", "pulled", "compacted"}))->capture_default_str();
   c->add_option("--fin-threshold", f->finThreshold, "Edges this near to the silhouette grow a fading fin, 0..1")

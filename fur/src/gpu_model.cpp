@@ -30,7 +30,8 @@ class Uploader {
     for (const Material& m : model_.materials) gpu.materials.push_back(MakeMaterial(m));
     for (const Part& p : model_.parts)
       gpu.parts.push_back({p.primitive, model_.primitives[p.primitive].material, p.transform,
-                           glm::determinant(glm::dmat3(p.transform)) < 0});
+                           glm::determinant(glm::dmat3(p.transform)) < 0, nullptr});
+    if (Sorts()) PrepareSorting(&gpu);
     for (size_t i = 0; i < gpu.materials.size() && gpu.firstFur < 0; ++i)
       if (gpu.materials[i].shells > 0) gpu.firstFur = int32_t(i);
     if (failed_) return error_;
@@ -39,6 +40,10 @@ class Uploader {
 
  private:
   bool Correct() const { return settings_.look == Look::Correct; }
+  bool Sorts() const {
+    return settings_.technique == Technique::Shells && settings_.shellMode == ShellMode::Amplified &&
+           settings_.shellsAtOnce > 1 && settings_.drawShells;
+  }
 
   void Check(rhi::Status status, const std::string& what) {
     if (status == rhi::Status::Ok || failed_) return;
@@ -77,7 +82,23 @@ class Uploader {
     g.edgeCount = uint32_t(mesh.edges.size() / 4);
     g.baldTriangles = mesh.baldTriangles;
     g.baldEdges = mesh.baldEdges;
+    if (Sorts()) {
+      g.cpuIndices = mesh.indices;
+      g.order = TriangleOrder(mesh.vertices, mesh.indices);
+    }
     return g;
+  }
+
+  // Each part has indices of its own: two parts of one primitive are seen from different sides.
+  void PrepareSorting(GpuModel* gpu) {
+    for (GpuPart& part : gpu->parts) {
+      const auto bytes = uint32_t(gpu->furMeshes[part.primitive].cpuIndices.size() * sizeof(uint32_t));
+      if (bytes == 0) continue;
+      Check(device_.CreateBuffer({.byteWidth = bytes, .usage = rhi::Usage::Dynamic, .bind = rhi::Bind::IndexBuffer,
+                                  .name = "sorted fur indices"},
+                                 nullptr, &part.sortedIndices),
+            "sorted fur indices");
+    }
   }
 
   GpuGeometry Geometry(const Primitive& p) {

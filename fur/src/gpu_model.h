@@ -6,6 +6,7 @@
 #include "fur/model.h"
 #include "fur/renderer.h"
 #include "rhi/rhi.h"
+#include "triangle_order.h"
 
 namespace fur {
 
@@ -18,6 +19,8 @@ struct GpuFurMesh {  // of one furred primitive, for technique shells (fur/fur_m
   rhi::Ref<rhi::IBuffer> vertices, indices, edges;
   rhi::Ref<rhi::IShaderResourceView> verticesView, edgesView;  // structured: FurVertex; uint4
   uint32_t indexCount = 0, edgeCount = 0, baldTriangles = 0, baldEdges = 0;
+  std::vector<uint32_t> cpuIndices;  // these two for several shells of a triangle at once only
+  TriangleOrder order;
 };
 
 struct GpuMaterial {
@@ -34,6 +37,7 @@ struct GpuPart {
   uint32_t primitive = 0, material = 0;
   glm::dmat4 transform{1};
   bool mirrored = false;  // the transform turns the winding around
+  rhi::Ref<rhi::IBuffer> sortedIndices;  // dynamic; null but for several shells of a triangle at once
 };
 
 struct GpuModel {

@@ -29,6 +29,8 @@ glm::dvec3 ToPartAxes(const glm::dmat4& transform, const glm::dvec3& v) {
 
 }  // namespace
 
+glm::dvec3 PartComb(const FrameInputs& in, const GpuPart& part) { return ToPartAxes(part.transform, in.comb); }
+
 ObjectConstants MakeObjectConstants(const glm::dmat4& objectToWorld, const FrameInputs& in) {
   glm::dmat4 objectToEye = objectToWorld;
   objectToEye[3] -= glm::dvec4(in.eye, 0);
@@ -73,7 +75,7 @@ void PassBinding::SetMaterial(rhi::IContext& context, const GpuMaterial& m) cons
 void PassBinding::SetObject(rhi::IContext& context, const FrameInputs& in, const glm::dmat4& placement,
                             const GpuPart& part) const {
   ObjectConstants o = MakeObjectConstants(placement * part.transform, in);
-  o.comb = glm::vec4(ToPartAxes(part.transform, in.comb), in.bend);
+  o.comb = glm::vec4(PartComb(in, part), in.bend);
   context.UpdateConstants(object_.get(), &o, sizeof o);
 }
 

@@ -30,6 +30,9 @@ class PassBinding {
   rhi::Ref<rhi::ISamplerState> volumeSampler_;
 };
 
+// The frame's comb in the part's axes.
+glm::dvec3 PartComb(const FrameInputs&, const GpuPart&);
+
 // The solid pass: skin and bald parts.
 class BasePass {
  public:

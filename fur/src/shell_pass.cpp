@@ -7,7 +7,7 @@
 namespace fur {
 namespace {
 
-// As shaders_hlsl/fur_point.hlsli: what the geometry shader emits for each triangle at a time.
+// As shaders_hlsl/fur_point.hlsli: the most that the geometry shader emits for each triangle.
 constexpr uint32_t kShellsInGs = 14, kVaryingScalars = 24;
 
 const rhi::ShaderBlob& PixelShader(Look look, Semantics semantics, bool between) {
@@ -23,6 +23,9 @@ const rhi::ShaderBlob& PixelShader(Look look, Semantics semantics, bool between)
 
 Result<Done> CheckShellMode(const rhi::Caps& caps, const RenderSettings& settings) {
   if (settings.shellMode != ShellMode::Amplified || !settings.drawShells) return Done{};
+  if (settings.shellsAtOnce < 1 || settings.shellsAtOnce > kShellsInGs)
+    return Error{ErrorCode::Usage, "a geometry shader makes 1 to " + std::to_string(kShellsInGs) +
+                                       " shells of a triangle at once, not " + std::to_string(settings.shellsAtOnce)};
   const std::string adapter = caps.adapter.data();
   if (!caps.geometryShader)
     return Error{ErrorCode::NoDevice, "shells by amplification need a geometry shader, which " + adapter +
@@ -38,7 +41,7 @@ Result<Done> CheckShellMode(const rhi::Caps& caps, const RenderSettings& setting
 }
 
 ShellPass::ShellPass(Creation& c, const RenderSettings& settings)
-    : mode_(settings.shellMode), backFaces_(settings.backFaces) {
+    : mode_(settings.shellMode), backFaces_(settings.backFaces), shellsAtOnce_(settings.shellsAtOnce) {
   const bool amplified = mode_ == ShellMode::Amplified && settings.drawShells;
   vs_ = c.Shader(amplified ? shaders::shell_amplify_VSMain : shaders::shell_VSMain);
   if (amplified) gs_ = c.Shader(shaders::shell_amplify_GSMain);
@@ -51,30 +54,59 @@ void ShellPass::Draw(rhi::IContext& context, const PassBinding& binding, const G
                      size_t animal) const {
   context.IASetInputLayout(layout_.get());
   context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
-  if (backFaces_) DrawSide(context, binding, model, in, animal, true);
-  DrawSide(context, binding, model, in, animal, false);
+  const std::vector<rhi::IBuffer*> indices = Indices(context, model, in, animal);  // once for both sides
+  if (backFaces_) DrawSide(context, binding, model, in, {animal, indices, true});
+  DrawSide(context, binding, model, in, {animal, indices, false});
   context.GSSetShader(nullptr);
 }
 
-void ShellPass::DrawSide(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
-                         const FrameInputs& in, size_t animal, bool back) const {
+// For each part what its triangles are drawn from. One shell at a time is drawn in the list's order, as the other modes
+// draw it: where two limbs overlap, another order would show.
+std::vector<rhi::IBuffer*> ShellPass::Indices(rhi::IContext& context, const GpuModel& model, const FrameInputs& in,
+                                              size_t animal) const {
+  std::vector<rhi::IBuffer*> indices;
   for (const GpuPart& part : model.parts) {
+    indices.push_back(model.furMeshes[part.primitive].indices.get());
+    if (!part.sortedIndices) continue;
+    const glm::dvec3 eye(glm::inverse(in.placements[animal] * part.transform) * glm::dvec4(in.eye, 1));
+    if (Sort(context, model.furMeshes[part.primitive], eye, PartComb(in, part), part.sortedIndices.get()))
+      indices.back() = part.sortedIndices.get();
+  }
+  return indices;
+}
+
+// False where there is no memory for this frame's indices.
+bool ShellPass::Sort(rhi::IContext& context, const GpuFurMesh& mesh, const glm::dvec3& eye, const glm::dvec3& comb,
+                     rhi::IBuffer* sorted) {
+  rhi::Mapped mapped;
+  if (context.Map(sorted, 0, rhi::MapMode::WriteDiscard, &mapped) != rhi::Status::Ok) return false;
+  auto* out = static_cast<uint32_t*>(mapped.data);
+  for (const uint32_t triangle : mesh.order.BackToFront(eye, comb))
+    out = std::copy_n(&mesh.cpuIndices[size_t{3} * triangle], 3, out);
+  context.Unmap(sorted, 0);
+  return true;
+}
+
+void ShellPass::DrawSide(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
+                         const FrameInputs& in, const Side& side) const {
+  for (size_t i = 0; i < model.parts.size(); ++i) {
+    const GpuPart& part = model.parts[i];
     const GpuMaterial& material = model.materials[part.material];
     const GpuFurMesh& mesh = model.furMeshes[part.primitive];
     if (mesh.indexCount == 0) continue;
     PassBinding::SetShaders(context, in, vs_.get(), gs_.get(), (material.betweenSlices ? betweenPS_ : onSlicesPS_).get());
-    context.RSSetState(binding.Cull(part, back ? rhi::CullMode::Front : rhi::CullMode::Back));
+    context.RSSetState(binding.Cull(part, side.back ? rhi::CullMode::Front : rhi::CullMode::Back));
     binding.SetMaterial(context, material);
-    PassBinding::SetVertices(context, mesh.vertices.get(), sizeof(FurVertex), mesh.indices.get());
-    binding.SetObject(context, in, in.placements[animal], part);
-    DrawShells(context, binding, mesh, material.shells, back, in.counts);
+    PassBinding::SetVertices(context, mesh.vertices.get(), sizeof(FurVertex), side.indices[i]);
+    binding.SetObject(context, in, in.placements[side.animal], part);
+    DrawShells(context, binding, mesh, material.shells, side.back, in.counts);
   }
 }
 
 // From behind the outermost shell comes first, from the front the innermost.
 void ShellPass::DrawShells(rhi::IContext& context, const PassBinding& binding, const GpuFurMesh& mesh, uint32_t shells,
                            bool back, FrameCounts* counts) const {
-  const uint32_t atOnce = mode_ == ShellMode::Draws ? 1 : mode_ == ShellMode::Amplified ? kShellsInGs : shells;
+  const uint32_t atOnce = mode_ == ShellMode::Draws ? 1 : mode_ == ShellMode::Amplified ? shellsAtOnce_ : shells;
   for (uint32_t done = 0; done < shells; done += atOnce) {
     const uint32_t count = std::min(atOnce, shells - done);
     binding.SetDraw(context, {back ? shells - 1 - done : done, back ? -1 : 1, count, 0});

@@ -1,5 +1,8 @@
-// The shells of technique `shells`, three ways to the same picture.
+// The shells of technique `shells`, three ways to the same picture. Seen from behind they come outside in, then seen
+// from the front inside out: shell by shell, or, amplified, some shells of each triangle at a time (docs/measured.md).
 #pragma once
+
+#include <vector>
 
 #include "fur/fur_mesh.h"
 #include "pass.h"
@@ -16,13 +19,21 @@ class ShellPass {
   void Draw(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, size_t animal) const;
 
  private:
-  void DrawSide(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, size_t animal,
-                bool back) const;
+  struct Side {
+    size_t animal;
+    const std::vector<rhi::IBuffer*>& indices;  // of each part
+    bool back;
+  };
+  std::vector<rhi::IBuffer*> Indices(rhi::IContext&, const GpuModel&, const FrameInputs&, size_t animal) const;
+  static bool Sort(rhi::IContext&, const GpuFurMesh&, const glm::dvec3& eye, const glm::dvec3& comb,
+                   rhi::IBuffer* sorted);
+  void DrawSide(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, const Side&) const;
   void DrawShells(rhi::IContext&, const PassBinding&, const GpuFurMesh&, uint32_t shells, bool back,
                   FrameCounts*) const;
 
   ShellMode mode_;
   bool backFaces_;
+  uint32_t shellsAtOnce_;  // in the geometry shader
   rhi::Ref<rhi::IShader> vs_, gs_, onSlicesPS_, betweenPS_;
   rhi::Ref<rhi::IInputLayout> layout_;
 };

@@ -41,6 +41,8 @@ const BadFlag kChoices[] = {
     {"SamplesText", {"--samples", "many"}, {"--samples"}},
     {"NoShells", {"--shells", "0"}, {"--shells"}},
     {"ManyShells", {"--shells", "513"}, {"--shells"}},
+    {"NoShellsAtOnce", {"--shells-at-once", "0"}, {"--shells-at-once"}},
+    {"ManyShellsAtOnce", {"--shells-at-once", "15"}, {"--shells-at-once"}},
     {"NegativeShells", {"--shells=-1"}, {"--shells"}},
     {"NoAnimals", {"--count", "0"}, {"--count"}},
     {"TooManyAnimals", {"--count", "10001"}, {"--count"}},

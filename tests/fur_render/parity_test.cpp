@@ -44,15 +44,6 @@ const Model& Animal() {
 
 Camera CloseCamera() { return FrameBounds(ComputeBounds(Animal()), PlaceAnimals(1, 1), 40, 160 / 120.0); }
 
-// How many colours a picture has: a wrong one tends to have few.
-size_t Colors(const Image& image) {
-  std::vector<Rgb> colors;
-  for (uint32_t y = 0; y < image.height; ++y)
-    for (uint32_t x = 0; x < image.width; ++x) colors.push_back(PixelAt(image, x, y));
-  std::sort(colors.begin(), colors.end());
-  return size_t(std::unique(colors.begin(), colors.end()) - colors.begin());
-}
-
 void ExpectSameFrames(const RenderSettings& settings, const Model& model, const Camera& camera,
                       const std::vector<glm::dmat4>& placements) {
   std::vector<Frame> frames;

@@ -1,5 +1,6 @@
 #include "support.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <ostream>
@@ -75,6 +76,14 @@ uint64_t DifferingPixels(const Image& a, const Image& b) {
   for (size_t i = 0; i < a.pixels.size(); i += 4)
     differing += !std::equal(&a.pixels[i], &a.pixels[i] + 4, &b.pixels[i]);
   return differing;
+}
+
+size_t Colors(const Image& image) {
+  std::vector<Rgb> colors;
+  for (uint32_t y = 0; y < image.height; ++y)
+    for (uint32_t x = 0; x < image.width; ++x) colors.push_back(PixelAt(image, x, y));
+  std::sort(colors.begin(), colors.end());
+  return size_t(std::unique(colors.begin(), colors.end()) - colors.begin());
 }
 
 void ExpectColor(const Rgb& got, const glm::dvec3& expected, double tolerance, const std::string& what) {

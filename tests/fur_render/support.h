@@ -62,6 +62,7 @@ Frame Render(TestDevice&, const Model&, const RenderSettings&, const Camera&,
 using Rgb = std::array<int, 3>;
 Rgb PixelAt(const Image&, uint32_t x, uint32_t y);
 Rgb Center(const Image&);
+size_t Colors(const Image&);  // how many a picture has: a wrong one tends to have few
 uint64_t DifferingPixels(const Image&, const Image&);
 // Each channel within `tolerance` of 255 * expected.
 void ExpectColor(const Rgb& got, const glm::dvec3& expected, double tolerance, const std::string& what);

@@ -30,7 +30,7 @@ enum class Semantics {
 enum class ShellMode {
   Instanced,  // one draw, an instance for each shell
   Draws,      // one draw for each shell
-  Amplified   // a geometry shader makes the shells of a triangle, 14 at a time
+  Amplified   // a geometry shader makes the shells of a triangle, as many at a time as shellsAtOnce says
 };
 enum class FinMode {
   Auto,       // compacted where the device has compute and indirect draws, else geometry, else pulled
@@ -59,6 +59,9 @@ struct RenderSettings {
 
   // Technique shells only.
   ShellMode shellMode = ShellMode::Instanced;
+  // Amplified: 1..14. Above 1 the triangles are sorted back to front and the picture is that of the other modes only
+  // where the fur of no two limbs overlaps: docs/measured.md.
+  uint32_t shellsAtOnce = 1;
   FinMode finMode = FinMode::Auto;
   double finThreshold = 0.25;  // edges with |e.N| below it grow a fading fin, 0..1; 0: silhouettes only
   double finOpacity = 0.9;     // of a fin on the silhouette, 0..1
