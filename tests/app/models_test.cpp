@@ -48,7 +48,7 @@ TEST_P(RealModels, BothBackendsDrawTheSameInLookSeed) {
   const std::string file = Asset(GetParam().file);
   if (!std::filesystem::exists(file))
     GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
-  ExpectBothAlike(file, {"--look", "seed", "--samples", "4"});
+  ExpectBothAlike(file, {"--technique", "seed", "--look", "seed", "--samples", "4"});
 }
 
 // Field notes, section 6: the published camera sees nine of 25 cats.
@@ -56,7 +56,7 @@ TEST(PublishedCat, FieldOfTheDemo) {
   const std::string file = Asset("cat/cat.gltf");
   if (!std::filesystem::exists(file))
     GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
-  ExpectBothAlike(file, {"--look", "seed", "--count", "25", "--eye", "-1,2,-3", "--target", "0,0,0"});
+  ExpectBothAlike(file, {"--technique", "seed", "--look", "seed", "--count", "25", "--eye", "-1,2,-3", "--target", "0,0,0"});
 }
 
 TEST(PublishedCat, SubmitsWhatTheDemoSubmits) {
@@ -64,7 +64,7 @@ TEST(PublishedCat, SubmitsWhatTheDemoSubmits) {
   if (!std::filesystem::exists(file))
     GTEST_SKIP() << file << " is absent; set FUR_ASSETS to the folder of the test models";
   const Folder folder;
-  const Outcome o = RunFur({"render", file, "--look", "seed", "--shells", "16", "--size", "64x48", "-o",
+  const Outcome o = RunFur({"render", file, "--technique", "seed", "--look", "seed", "--shells", "16", "--size", "64x48", "-o",
                             folder / "x.png", "--stats", folder / "s.json"});
   ASSERT_EQ(o.exitCode, 0) << o.err;
   const nlohmann::json s = ReadJson(folder / "s.json");

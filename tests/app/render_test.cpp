@@ -105,9 +105,9 @@ TEST(Render, DefaultBackendIsVulkan) {
 void ExpectStats(const nlohmann::json& s, const std::string& backend, size_t repeats) {
   EXPECT_EQ(s["backend"], backend);
   EXPECT_TRUE(s["driver"].is_string() && !s["driver"].get<std::string>().empty());
-  EXPECT_EQ(s["technique"], "seed");
+  EXPECT_EQ(s["technique"], "shells");
   EXPECT_EQ(s["look"], "correct");
-  EXPECT_EQ(s["semantics"], "sheet");
+  EXPECT_EQ(s["semantics"], "volume");
   EXPECT_EQ(s["width"], 96);
   EXPECT_EQ(s["height"], 64);
   EXPECT_EQ(s["samples"], 4);

@@ -28,19 +28,6 @@ RenderSettings Settings(double threshold) {
           .finThreshold = threshold};
 }
 
-FloatImage Pixels(TestDevice& device, const Model& model, const RenderSettings& settings, const Camera& camera) {
-  Result<std::unique_ptr<Renderer>> renderer = MakeRenderer(*device, model, settings);
-  if (!renderer) {
-    ADD_FAILURE() << renderer.error().message;
-    return {};
-  }
-  const glm::dmat4 place(1);
-  (*renderer)->Draw(camera, {&place, 1});
-  Result<FloatImage> image = (*renderer)->ReadPixels();
-  if (!image) ADD_FAILURE() << image.error().message;
-  return image ? std::move(*image) : FloatImage{};
-}
-
 // The rule of docs/shells.md in double: 1 on a silhouette, 1 - |e.N| / t beside it, e at the middle of the edge.
 double Fade(const FurMesh& mesh, size_t edge, const glm::dvec3& eye, double threshold) {
   const auto at = [&](size_t k) { return glm::dvec3(mesh.vertices[mesh.edges[edge + k]].position); };

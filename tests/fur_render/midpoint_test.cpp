@@ -41,19 +41,6 @@ RenderSettings Settings(const SquareScene& scene, TargetFormat target) {
           .light = scene.light};
 }
 
-FloatImage Pixels(TestDevice& device, const Model& model, const RenderSettings& settings, const Camera& camera,
-                  const std::vector<glm::dmat4>& placements = {glm::dmat4(1)}) {
-  Result<std::unique_ptr<Renderer>> renderer = MakeRenderer(*device, model, settings);
-  if (!renderer) {
-    ADD_FAILURE() << renderer.error().message;
-    return {};
-  }
-  (*renderer)->Draw(camera, placements);
-  Result<FloatImage> image = (*renderer)->ReadPixels();
-  if (!image) ADD_FAILURE() << image.error().message;
-  return image ? std::move(*image) : FloatImage{};
-}
-
 // The fur's own texture coordinates turn the square's frame.
 glm::dvec3 FurTangent(const Model& square) {
   return glm::dvec3(MakeFurMeshes(square, FurTiling::Isometric)[0].vertices[0].tangent);

@@ -62,6 +62,19 @@ Frame Render(TestDevice& device, const Model& model, const RenderSettings& setti
   return frame;
 }
 
+FloatImage Pixels(TestDevice& device, const Model& model, const RenderSettings& settings, const Camera& camera,
+                  const std::vector<glm::dmat4>& placements) {
+  Result<std::unique_ptr<Renderer>> renderer = MakeRenderer(*device, model, settings);
+  if (!renderer) {
+    ADD_FAILURE() << renderer.error().message;
+    return {};
+  }
+  (*renderer)->Draw(camera, placements);
+  Result<FloatImage> image = (*renderer)->ReadPixels();
+  if (!image) ADD_FAILURE() << image.error().message;
+  return image ? std::move(*image) : FloatImage{};
+}
+
 Rgb PixelAt(const Image& image, uint32_t x, uint32_t y) {
   const uint8_t* p = &image.pixels[(size_t{y} * image.width + x) * 4];
   return {p[0], p[1], p[2]};

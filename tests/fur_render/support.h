@@ -59,6 +59,10 @@ struct Frame {
 Frame Render(TestDevice&, const Model&, const RenderSettings&, const Camera&,
              const std::vector<glm::dmat4>& placements = {glm::dmat4(1)});
 
+// The frame before it is brought to 8 bits.
+FloatImage Pixels(TestDevice&, const Model&, const RenderSettings&, const Camera&,
+                  const std::vector<glm::dmat4>& placements = {glm::dmat4(1)});
+
 using Rgb = std::array<int, 3>;
 Rgb PixelAt(const Image&, uint32_t x, uint32_t y);
 Rgb Center(const Image&);
