@@ -1,6 +1,7 @@
 // The solid pass: skin and bald parts, Blinn-Phong with a normal map and a specular map.
 // Variant LOOK_SEED: the published demo's lighting, value for value.
 #include "fur_constants.h"
+#include "base_varying.hlsli"
 #include "math.hlsli"
 #include "vertex.hlsli"
 
@@ -8,14 +9,6 @@ Texture2D baseColorMap : register(t0);
 Texture2D normalMap : register(t1);
 Texture2D specularMap : register(t2);
 SamplerState surfaceSampler : register(s0);
-
-struct BaseVarying {
-  float4 position : SV_Position;
-  float2 uv : TEXCOORD0;
-  float3 normal : TEXCOORD1;
-  float4 tangent : TEXCOORD2;
-  float3 fromEye : TEXCOORD3;  // world axes
-};
 
 BaseVarying VSMain(VertexIn v) {
   BaseVarying o;

@@ -4,12 +4,14 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "commands.h"
 #include "fur/builtin.h"
 #include "fur/file.h"
 #include "fur/gltf.h"
 #include "fur/image_io.h"
+#include "preset_flags.h"
 #include "render_job.h"
 #include "stats.h"
 
@@ -36,11 +38,13 @@ const CLI::Validator kFinite(
 
 struct RenderFlags {
   std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "shells", look = "correct", semantics,
-              stats, shellMode = "instanced", finMode = "auto", comb, eye, target, adapter, furFile, furMaterial, background;
+              preset, coat, stats, shellMode = "instanced", finMode = "auto", comb, eye, target, adapter, furFile, furMaterial,
+              background;
   uint32_t samples = 1, shells = 0, shellsAtOnce = 1, count = 1, repeat = 1;
   double fov = 0, zNear = 0, zFar = 0, furLength = 0, uvScale = 0;
-  double finThreshold = 0.25, finOpacity = 0.9, combStrength = 1, bend = 2, spacing = 0;
+  double finThreshold = 0.25, finOpacity = 0.9, deadZone = 0.25, combStrength = 1, bend = 2, spacing = 0;
   bool noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
+  std::set<std::string> given;  // the flags on the command line
 };
 
 Result<glm::dvec3> ParseVector(const std::string& text, const char* flag) {
@@ -63,14 +67,7 @@ Result<Done> ParseSize(const std::string& text, fur::RenderSettings* s) {
   return Done{};
 }
 
-template <class T>
-T Choose(const std::string& text, std::initializer_list<std::pair<const char*, T>> choices) {
-  for (const auto& [name, value] : choices)
-    if (text == name) return value;
-  return choices.begin()->second;
-}
-
-// What belongs to technique shells alone.
+// What belongs to technique shells alone, or to a preset too.
 Result<Done> SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
   s->shellMode = Choose<fur::ShellMode>(f.shellMode, {{"instanced", fur::ShellMode::Instanced},
                                                       {"draws", fur::ShellMode::Draws},
@@ -84,6 +81,7 @@ Result<Done> SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
   s->finOpacity = f.finOpacity;
   s->backFaces = !f.noBackFaces;
   s->sortAnimals = !f.noSort;
+  s->finDeadZone = f.deadZone;
   s->bend = f.bend;
   s->spacing = f.spacing;
   if (f.comb.empty()) return Done{};
@@ -101,6 +99,7 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   s.samples = f.samples;
   s.look = f.look == "seed" ? fur::Look::Seed : fur::Look::Correct;
   s.technique = f.technique == "seed" ? fur::Technique::Seed : fur::Technique::Shells;
+  if (Result<Done> preset = SetPreset(f.preset, f.coat, f.given, &s); !preset) return preset.error();
   // As published: a sheet, whatever the angle.
   const bool published = s.technique == fur::Technique::Seed || s.look == fur::Look::Seed;
   const bool volume = f.semantics.empty() ? !published : f.semantics == "volume";
@@ -109,7 +108,7 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   s.drawFins = !f.noFins;
   s.drawShells = !f.noShells;
   if (Result<Done> shells = SetShellOptions(f, &s); !shells) return shells.error();
-  if (s.look == fur::Look::Seed) s.light = fur::kDemoLight;
+  if (s.look == fur::Look::Seed) s.light = fur::PresetLight(s.preset);
   s.background = s.look == fur::Look::Correct ? kStudioGrey : glm::dvec3(0);
   if (f.background.empty()) return s;
   Result<glm::dvec3> background = ParseVector(f.background, "--background");
@@ -273,6 +272,14 @@ Result<Done> Render(const RenderFlags& f) {
   return Done{};
 }
 
+void AddPresetFlags(CLI::App* c, RenderFlags* f) {
+  c->add_option("--preset", f->preset, "A published system's shells and fins, and its look (docs/presets.md); technique seed, look seed")
+      ->check(CLI::IsMember({"demo-fur", "nvidia-d3d10", "gs-shells", "four-coats"}));
+  c->add_option("--coat", f->coat, "Whose colours preset four-coats wears; default bear")->check(CLI::IsMember({"bear", "panther", "snow", "tiger"}));
+  c->add_option("--dead-zone", f->deadZone, "Presets gs-shells, four-coats: an edge whose mean normal is this near to perpendicular to the view grows a fin, 0..1")
+      ->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
+}
+
 void AddShellFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--shell-mode", f->shellMode, "Shells by instances, by a draw each, or amplified by a geometry shader")
       ->check(CLI::IsMember({"instanced", "draws", "amplified"}))->capture_default_str();
@@ -321,6 +328,7 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--background", f->background, "Background, R,G,B in 0..1: linear, default a grey, for look correct; raw, default black, for look seed");
   c->add_flag("--no-fins", f->noFins, "Draw no fins");
   c->add_flag("--no-shells", f->noShells, "Draw no shells");
+  AddPresetFlags(c, f);
   AddShellFlags(c, f);
   c->add_flag("--validate", f->validate, "Run with the drivers' validation; messages go to stderr and into the stats");
 }
@@ -331,7 +339,9 @@ void AddRenderCommand(CLI::App& app, Command* run) {
   auto flags = std::make_shared<RenderFlags>();
   CLI::App* c = app.add_subcommand("render", "Render a model, or the built-in animal, to a PNG");
   AddFlags(c, flags.get());
-  c->callback([flags, run] {
+  c->callback([c, flags, run] {
+    for (const CLI::Option* option : c->get_options())
+      if (option->count() > 0) flags->given.insert(option->get_name());
     *run = [flags] {
       Result<Done> done = Render(*flags);
       return done ? 0 : Fail(done.error());

@@ -5,6 +5,14 @@ namespace app {
 const char* ToString(fur::Technique technique) { return technique == fur::Technique::Seed ? "seed" : "shells"; }
 const char* ToString(fur::Look look) { return look == fur::Look::Seed ? "seed" : "correct"; }
 const char* ToString(fur::Semantics semantics) { return semantics == fur::Semantics::Sheet ? "sheet" : "volume"; }
+const char* ToString(fur::Preset preset) {
+  constexpr const char* kNames[] = {"demo-fur", "nvidia-d3d10", "gs-shells", "four-coats"};
+  return kNames[size_t(preset)];
+}
+const char* ToString(fur::FourCoat coat) {
+  constexpr const char* kNames[] = {"bear", "panther", "snow", "tiger"};
+  return kNames[size_t(coat)];
+}
 
 nlohmann::ordered_json StatsJson(const RenderOutcome& out, const RenderJob& job) {
   const fur::FrameCounts& c = out.counts;
@@ -13,6 +21,8 @@ nlohmann::ordered_json StatsJson(const RenderOutcome& out, const RenderJob& job)
   j["adapter"] = out.caps.adapter.data();
   j["driver"] = out.caps.driver.data();
   j["technique"] = ToString(job.settings.technique);
+  if (job.settings.technique == fur::Technique::Seed) j["preset"] = ToString(job.settings.preset);
+  if (job.settings.preset == fur::Preset::FourCoats) j["coat"] = ToString(job.settings.fourCoat);
   j["look"] = ToString(job.settings.look);
   j["semantics"] = ToString(job.settings.semantics);
   j["width"] = job.settings.width;

@@ -14,5 +14,7 @@ nlohmann::ordered_json DifferenceJson(const ImageDifference&);
 const char* ToString(fur::Technique);
 const char* ToString(fur::Look);
 const char* ToString(fur::Semantics);
+const char* ToString(fur::Preset);
+const char* ToString(fur::FourCoat);
 
 }  // namespace app

@@ -6,9 +6,10 @@
 
 #include "driver_error.h"
 #include "fur/fur_mesh.h"
-#include "fur/topology.h"
 #include "gpu_constants.h"
 #include "mips.h"
+#include "preset_textures.h"
+#include "presets.h"
 #include "volume_mips.h"
 
 namespace fur {
@@ -27,7 +28,7 @@ class Uploader {
       for (const FurMesh& mesh : MakeFurMeshes(model_, Correct() ? FurTiling::Isometric : FurTiling::Model))
         gpu.furMeshes.push_back(UploadFurMesh(mesh));
     gpu.bounds = ComputeBounds(model_);
-    for (const Material& m : model_.materials) gpu.materials.push_back(MakeMaterial(m));
+    for (uint32_t i = 0; i < model_.materials.size(); ++i) gpu.materials.push_back(MakeMaterial(i));
     for (const Part& p : model_.parts)
       gpu.parts.push_back({p.primitive, model_.primitives[p.primitive].material, p.transform,
                            glm::determinant(glm::dmat3(p.transform)) < 0, nullptr});
@@ -44,6 +45,10 @@ class Uploader {
     return settings_.technique == Technique::Shells && settings_.shellMode == ShellMode::Amplified &&
            settings_.shellsAtOnce > 1 && settings_.drawShells;
   }
+  // Technique shells has no preset: the plain one's traits change nothing.
+  const PresetTraits& Traits() const { return TraitsOf(settings_.preset); }
+  // The published demo takes its asset as shipped; everything else handles it as docs/accuracy.md says.
+  bool AsShipped() const { return !Correct() && settings_.preset == Preset::DemoFur; }
 
   void Check(rhi::Status status, const std::string& what) {
     if (status == rhi::Status::Ok || failed_) return;
@@ -104,7 +109,7 @@ class Uploader {
   GpuGeometry Geometry(const Primitive& p) {
     GpuGeometry g;
     const bool seed = settings_.technique == Technique::Seed;
-    const std::vector<uint32_t> edges = seed ? SeedLineAdjacency(p.indices) : std::vector<uint32_t>();
+    const std::vector<uint32_t> edges = seed ? FinIndices(p, settings_.preset) : std::vector<uint32_t>();
     g.vertices = Buffer(p.vertices, rhi::Bind::VertexBuffer, p.name + " vertices");
     g.indices = Buffer(p.indices, rhi::Bind::IndexBuffer, p.name + " indices");
     g.finIndices = Buffer(edges, rhi::Bind::IndexBuffer, p.name + " edges");
@@ -154,14 +159,30 @@ class Uploader {
     return image;
   }
 
+  // What a preset draws of a furred material instead of its colours.
+  rhi::Ref<rhi::IShaderResourceView> PresetColor(uint32_t index, const Material& m) {
+    const PresetTraits& traits = Traits();
+    if (traits.coatColors) return ImageTexture(PaintCoat(model_, index, settings_.fourCoat), MipFilter::Raw);
+    if (traits.lengthInAlpha)
+      return ImageTexture(LengthInAlpha(Tinted(ColorImage(m), RawFactor(m)), model_, m), MipFilter::Raw);
+    return BaseColor(m);
+  }
+
+  Image ColorImage(const Material& m) const {
+    const int32_t image = m.baseColorTexture.image;
+    return image < 0 ? Image{"white", 1, 1, {255, 255, 255, 255}} : model_.images[size_t(image)];
+  }
+  static glm::dvec3 RawFactor(const Material& m) {
+    return {LinearToSrgb(m.baseColor.r), LinearToSrgb(m.baseColor.g), LinearToSrgb(m.baseColor.b)};
+  }
+
   rhi::Ref<rhi::IShaderResourceView> BaseColor(const Material& m) {
     const int32_t image = m.baseColorTexture.image;
     const MipFilter filter = Correct() ? MipFilter::Srgb : MipFilter::Raw;
-    const glm::dvec3 raw(LinearToSrgb(m.baseColor.r), LinearToSrgb(m.baseColor.g), LinearToSrgb(m.baseColor.b));
+    const glm::dvec3 raw = RawFactor(m);
     const bool tinted = !Correct() && raw != glm::dvec3(1);
     if (image >= 0 && !tinted) return ModelTexture(image, filter);
-    const Image source = image < 0 ? Image{"white", 1, 1, {255, 255, 255, 255}} : model_.images[size_t(image)];
-    return ImageTexture(tinted ? Tinted(source, raw) : source, filter);
+    return ImageTexture(tinted ? Tinted(ColorImage(m), raw) : ColorImage(m), filter);
   }
 
   rhi::Ref<rhi::ISamplerState> Sampler(bool wrapU, bool wrapV) {
@@ -173,14 +194,10 @@ class Uploader {
     return sampler;
   }
 
-  // Look correct empties the top slice, which the fur model asks for; look seed takes the asset as shipped.
+  // The demo takes the asset as shipped; else the top slice is emptied, which the fur model asks for.
   std::vector<MipChain> VolumeMips(const FurVolume& volume, double heightFalloff) const {
+    if (!AsShipped()) return MakeVolumeMips(WithoutTopSlice(volume), heightFalloff);
     const size_t texels = size_t(volume.width) * volume.height;
-    if (Correct()) {
-      FurVolume emptied = volume;
-      for (size_t i = texels * (volume.layers - 1); i < texels * volume.layers; ++i) emptied.pixels[i * 4 + 3] = 0;
-      return MakeVolumeMips(emptied, heightFalloff);
-    }
     std::vector<MipChain> mips;
     for (size_t layer = 0; layer < volume.layers; ++layer)
       mips.push_back(MakeMips({&volume.pixels[layer * texels * 4], texels * 4}, volume.width, volume.height,
@@ -206,28 +223,54 @@ class Uploader {
     return c;
   }
 
-  void AddFur(const MaterialFur& fur, GpuMaterial* gpu, MaterialConstants* c) {
+  // Shells of a preset that asks for it are a thousandth of the model's diameter apart, in the material's units: those of
+  // the first part that wears it.
+  double FurLength(uint32_t material, const FurParams& p, uint32_t shells) const {
+    if (settings_.spacing > 0) return settings_.spacing * shells;
+    if (!Traits().spacingOfDiameter) return p.length * Traits().lengthShare;
+    double unit = 1;
+    for (size_t i = model_.parts.size(); i-- > 0;)
+      if (model_.primitives[model_.parts[i].primitive].material == material)
+        unit = std::cbrt(std::abs(glm::determinant(glm::dmat3(model_.parts[i].transform))));
+    return ComputeBounds(model_).Diameter() / 1000 * shells / (unit > 0 ? unit : 1);
+  }
+
+  void AddFur(uint32_t index, const Material& m, GpuMaterial* gpu, MaterialConstants* c) {
+    const MaterialFur& fur = *m.fur;
     const FurVolume& volume = model_.volumes[size_t(fur.volume)];
     const FurParams& p = fur.params;
-    gpu->shells = settings_.shells ? settings_.shells : p.shells ? p.shells : std::max(16u, volume.layers);
+    gpu->shells = ShellCount(settings_, p.shells, volume.layers);
     gpu->lengthMap = fur.lengthMap < 0 ? OneTexel({255, 255, 255, 255}, "full length")
                                        : ModelTexture(fur.lengthMap, MipFilter::Raw);
     // The demo's shells lose coverage with height whatever the volume holds.
-    const double falloff = Correct() ? p.heightFalloff : 1;
-    const double length = settings_.spacing > 0 ? settings_.spacing * gpu->shells : p.length;
+    const double falloff = AsShipped() ? 1 : p.heightFalloff;
+    const double length = FurLength(index, p, gpu->shells);
     gpu->furVolume = Volume(volume, falloff);
     c->furShape = {float(length), float(p.layerUvScale), float(volume.layers), float(gpu->shells)};
     c->furLight = {float(p.selfShadow), float(p.specularPower), float(p.specularScale), float(falloff)};
     // The longest way through one shell's slab, and the published slabs that one shell stands for: docs/accuracy.md.
-    c->furSemantics = {0.25f / std::sqrt(float(gpu->shells)), float(volume.layers) / float(gpu->shells), 0, 0};
-    c->fin = {float(settings_.finThreshold), float(settings_.finOpacity), 0, 0};
+    c->furSemantics = {0.25f / std::sqrt(float(gpu->shells)), float(volume.layers) / float(gpu->shells),
+                       float(length / gpu->shells), 0};
+    c->fin = {float(settings_.finThreshold), float(settings_.finOpacity), float(settings_.finDeadZone), 0};
     // (i + 1/2) N0 / N - 1/2 is whole for every i where N0 / N is odd.
     gpu->betweenSlices = volume.layers % gpu->shells != 0 || volume.layers / gpu->shells % 2 == 0;
+    AddPreset(m, volume, gpu, c);
   }
 
-  GpuMaterial MakeMaterial(const Material& m) {
+  void AddPreset(const Material& m, const FurVolume& volume, GpuMaterial* gpu, MaterialConstants* c) {
+    const PresetTraits& traits = Traits();
+    const auto& light = traits.furLight;
+    if (light[0] > 0) c->furLight = {light[0], light[1], light[2], c->furLight.w};
+    if (traits.opacityMap) gpu->opacityMap = ImageTexture(OpacityMap(WithoutTopSlice(volume)), MipFilter::Raw);
+    if (traits.finMap) gpu->finMap = ImageTexture(FinMap(WithoutTopSlice(volume)), MipFilter::Raw);
+    if (traits.spots) gpu->spots = ImageTexture(FurlessSpots(Tinted(ColorImage(m), RawFactor(m)), model_, m), MipFilter::Raw);
+  }
+
+  GpuMaterial MakeMaterial(uint32_t index) {
+    const Material& m = model_.materials[index];
+    const bool furred = m.fur && m.fur->params.enabled;
     GpuMaterial gpu;
-    gpu.baseColor = BaseColor(m);
+    gpu.baseColor = furred ? PresetColor(index, m) : BaseColor(m);
     gpu.normal = m.normalTexture.image < 0 ? OneTexel({128, 128, 255, 255}, "flat normal")
                                            : ModelTexture(m.normalTexture.image, MipFilter::Raw);
     gpu.specular = m.specularTexture.image < 0
@@ -236,7 +279,7 @@ class Uploader {
     gpu.surfaceSampler = Sampler(m.baseColorTexture.wrapU, m.baseColorTexture.wrapV);
     gpu.doubleSided = m.doubleSided;
     MaterialConstants constants = SurfaceConstants(m);
-    if (m.fur && m.fur->params.enabled) AddFur(*m.fur, &gpu, &constants);
+    if (furred) AddFur(index, m, &gpu, &constants);
     gpu.constants = Constants(constants, m.name + " constants");
     return gpu;
   }

@@ -11,7 +11,7 @@
 namespace fur {
 
 struct GpuGeometry {  // of one primitive
-  rhi::Ref<rhi::IBuffer> vertices, indices, finIndices;  // finIndices: LineListAdj, null without edges or for shells
+  rhi::Ref<rhi::IBuffer> vertices, indices, finIndices;  // finIndices: presets.h; null for technique shells
   uint32_t indexCount = 0, finIndexCount = 0;
 };
 
@@ -26,6 +26,7 @@ struct GpuFurMesh {  // of one furred primitive, for technique shells (fur/fur_m
 struct GpuMaterial {
   rhi::Ref<rhi::IShaderResourceView> baseColor, normal, specular;  // never null
   rhi::Ref<rhi::IShaderResourceView> lengthMap, furVolume;         // null on bald materials
+  rhi::Ref<rhi::IShaderResourceView> opacityMap, finMap, spots;    // null where the preset has none (presets.h)
   rhi::Ref<rhi::ISamplerState> surfaceSampler;
   rhi::Ref<rhi::IBuffer> constants;  // MaterialConstants
   uint32_t shells = 0;               // 0: bald

@@ -64,10 +64,10 @@ void PassBinding::SetMaterial(rhi::IContext& context, const GpuMaterial& m) cons
   rhi::IBuffer* const constants[] = {m.constants.get()};
   context.SetConstantBuffers(1, 1, constants);
   rhi::IShaderResourceView* const views[] = {m.baseColor.get(), m.normal.get(), m.specular.get(), m.lengthMap.get(),
-                                             m.furVolume.get()};
+                                             m.furVolume.get(), m.opacityMap.get(), m.finMap.get(), m.spots.get()};
   rhi::ISamplerState* const samplers[] = {m.surfaceSampler.get(), volumeSampler_.get()};
   for (const rhi::Stage stage : {rhi::Stage::Vertex, rhi::Stage::Geometry, rhi::Stage::Pixel}) {
-    context.SetShaderResources(stage, 0, 5, views);
+    context.SetShaderResources(stage, 0, uint32_t(std::size(views)), views);
     context.SetSamplers(stage, 0, 2, samplers);
   }
 }
@@ -115,14 +115,14 @@ rhi::Ref<rhi::IInputLayout> ModelLayout(Creation& c, rhi::IShader* vs) {
   return layout;
 }
 
-BasePass::BasePass(Creation& c, Look look)
+BasePass::BasePass(Creation& c, Look look, const rhi::ShaderBlob* furred)
     : vs_(c.Shader(shaders::base_VSMain)),
       ps_(c.Shader(look == Look::Seed ? shaders::base_PSMain_seed : shaders::base_PSMain)),
+      furred_(furred ? c.Shader(*furred) : ps_),
       layout_(ModelLayout(c, vs_.get())) {}
 
 void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
                     const FrameInputs& in) const {
-  PassBinding::SetShaders(context, in, vs_.get(), nullptr, ps_.get());
   context.IASetInputLayout(layout_.get());
   context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
   context.OMSetBlendState(binding.opaque.get());
@@ -132,6 +132,8 @@ void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const Gp
       const GpuMaterial& material = model.materials[part.material];
       const GpuGeometry& g = model.geometry[part.primitive];
       context.RSSetState(binding.Cull(part, material.doubleSided ? rhi::CullMode::None : rhi::CullMode::Back));
+      rhi::IShader* ps = material.shells > 0 ? furred_.get() : ps_.get();
+      PassBinding::SetShaders(context, in, vs_.get(), nullptr, ps);
       binding.SetMaterial(context, material);
       PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.indices.get());
       binding.SetObject(context, in, placement, part);

@@ -12,7 +12,8 @@ class PassBinding {
   explicit PassBinding(Creation&);
 
   void BindFrame(rhi::IContext&, const FrameInputs&) const;
-  // Every texture of the material on every graphics stage, t0..t4 and s0, s1 (fur_volume.hlsli); b1.
+  // Every texture of the material on every graphics stage, t0..t7 and s0, s1 (fur_volume.hlsli; t5..t7: the presets'
+  // opacity map, map of fins and furless spots); b1.
   void SetMaterial(rhi::IContext&, const GpuMaterial&) const;
   void SetObject(rhi::IContext&, const FrameInputs&, const glm::dmat4& placement, const GpuPart&) const;  // b2
   void SetDraw(rhi::IContext&, const glm::vec4&) const;                                                   // b3
@@ -36,11 +37,12 @@ glm::dvec3 PartComb(const FrameInputs&, const GpuPart&);
 // The solid pass: skin and bald parts.
 class BasePass {
  public:
-  BasePass(Creation&, Look);
+  // `furred`: the pixel shader of furred materials; null: that of all others.
+  BasePass(Creation&, Look, const rhi::ShaderBlob* furred = nullptr);
   void Draw(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&) const;
 
  private:
-  rhi::Ref<rhi::IShader> vs_, ps_;
+  rhi::Ref<rhi::IShader> vs_, ps_, furred_;
   rhi::Ref<rhi::IInputLayout> layout_;
 };
 

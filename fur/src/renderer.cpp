@@ -7,6 +7,7 @@
 
 #include "creation.h"
 #include "fur_shaders/fur_shaders.h"
+#include "presets.h"
 #include "technique.h"
 
 namespace fur {
@@ -128,6 +129,7 @@ class RendererImpl final : public Renderer {
   RendererImpl(rhi::IDevice& device, const RenderSettings& settings) : device_(device), settings_(settings) {}
 
   Result<Done> Init(const Model& model) {
+    if (Result<Done> ok = CheckPreset(device_.GetCaps(), settings_); !ok) return ok.error();
     Result<GpuModel> uploaded = UploadModel(device_, model, settings_);
     if (!uploaded) return uploaded.error();
     model_ = std::move(*uploaded);

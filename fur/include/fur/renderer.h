@@ -20,6 +20,14 @@ enum class Look {
   Seed,    // as published: raw texture values, no transfer function
   Correct  // docs/accuracy.md: sRGB decoded, blended in linear light
 };
+// Whose published shells and fins technique seed draws (docs/presets.md). All but DemoFur want look seed and are sheets.
+enum class Preset {
+  DemoFur,      // the second description's demo: docs/seed.md
+  NvidiaD3d10,  // the first: a draw for each shell, length in alpha, comb, fins with a threshold
+  GsShells,     // the third: shells made by a geometry shader, furless spots
+  FourCoats     // the fourth: the same in the colours of four animals
+};
+enum class FourCoat { Bear, Panther, Snow, Tiger };
 // What a shell's coverage means.
 enum class Semantics {
   Sheet,  // a sheet of that opacity, whatever the angle
@@ -52,12 +60,15 @@ struct RenderSettings {
   Look look = Look::Correct;
   Semantics semantics = Semantics::Volume;
   TargetFormat target = TargetFormat::Auto;
-  uint32_t shells = 0;  // 0: as the material says
+  Preset preset = Preset::DemoFur;      // technique seed only
+  FourCoat fourCoat = FourCoat::Bear;   // preset FourCoats only
+  double finDeadZone = 0.25;            // presets GsShells, FourCoats: |edge normal . view| below it grows a fin, 0..1
+  uint32_t shells = 0;                  // 0: as the preset or the material says
   bool drawFins = true, drawShells = true;
   glm::dvec3 background{0};  // linear for Correct, raw for Seed
   Light light;
 
-  // Technique shells only.
+  // Technique shells only; the four of the fins, the comb and the spacing also where a preset has them.
   ShellMode shellMode = ShellMode::Instanced;
   // Amplified: 1..14. Above 1 the triangles are sorted back to front and the picture is that of the other modes only
   // where the fur of no two limbs overlaps: docs/measured.md.
@@ -69,8 +80,12 @@ struct RenderSettings {
   bool sortAnimals = true;     // back to front
   glm::dvec3 comb{0};          // offset of the tips relative to the fur's length, in the model's axes
   double bend = 2;             // exponent of the height in that offset, >= 1
-  double spacing = 0;          // distance of two shells in the primitive's units: the length is N times it; 0: the coat's
+  double spacing = 0;          // distance of two shells in the primitive's units: the length is N times it; 0: the
+                               // preset's, or the coat's
 };
+
+// The light of a preset as its description has it. Directions are the demo's.
+Light PresetLight(Preset);
 
 // What one frame submits. Fragments are counted exactly, one sample for each pixel, by an untimed pass.
 struct FrameCounts {

@@ -1,34 +1,35 @@
-// The technique of the four descriptions as published (docs/seed.md): solid pass, fins by a geometry shader over line
-// adjacency, 16 instanced shells inside out; animals in the order given; nothing skipped.
-#include "fur_shaders/fur_shaders.h"
+// The technique of the four descriptions as published (docs/seed.md, docs/presets.md): solid pass, fins by a geometry
+// shader over edges, shells inside out; animals in the order given; nothing skipped. presets.h says how each differs.
 #include "pass.h"
+#include "presets.h"
 
 namespace fur {
 namespace {
 
 struct Shaders {
-  rhi::Ref<rhi::IShader> finVS, finGS, finPS, shellVS, shellPS;
+  rhi::Ref<rhi::IShader> finVS, finGS, finPS, shellVS, shellGS, shellPS;
 };
 
-Shaders MakeShaders(Creation& c, Look look, Semantics semantics) {
-  const bool seed = look == Look::Seed, volume = semantics == Semantics::Volume;
+Shaders MakeShaders(Creation& c, const PresetShaders& blobs, const RenderSettings& settings) {
+  const bool amplified = TraitsOf(settings.preset).shells == ShellMode::Amplified;
   Shaders s;
-  s.finVS = c.Shader(seed ? shaders::seed_fin_VSMain_seed : shaders::seed_fin_VSMain);
-  s.finGS = c.Shader(seed ? shaders::seed_fin_GSMain_seed : shaders::seed_fin_GSMain);
-  s.finPS = c.Shader(seed ? shaders::seed_fin_PSMain_seed : shaders::seed_fin_PSMain);
-  s.shellVS = c.Shader(shaders::seed_shell_VSMain);
-  s.shellPS = c.Shader(seed ? (volume ? shaders::seed_shell_PSMain_seed_volume : shaders::seed_shell_PSMain_seed)
-                            : (volume ? shaders::seed_shell_PSMain_volume : shaders::seed_shell_PSMain));
+  s.shellVS = c.Shader(*blobs.shellVS);
+  s.shellPS = c.Shader(*blobs.shellPS);
+  if (amplified && settings.drawShells) s.shellGS = c.Shader(*blobs.shellGS);
+  s.finVS = c.Shader(*blobs.finVS);
+  s.finPS = c.Shader(*blobs.finPS);
+  if (settings.drawFins) s.finGS = c.Shader(*blobs.finGS);
   return s;
 }
 
-class SeedTechnique final : public ITechnique {
+class PublishedTechnique final : public ITechnique {
  public:
-  SeedTechnique(Creation& c, const RenderSettings& settings)
+  PublishedTechnique(Creation& c, const RenderSettings& settings, const PresetShaders& blobs)
       : settings_(settings),
+        traits_(TraitsOf(settings.preset)),
         binding_(c),
-        base_(c, settings.look),
-        shaders_(MakeShaders(c, settings.look, settings.semantics)),
+        base_(c, settings.look, blobs.furredBase),
+        shaders_(MakeShaders(c, blobs, settings)),
         layout_(ModelLayout(c, shaders_.shellVS.get())),
         alpha_(c.Blend(rhi::Blend::SrcAlpha, rhi::Blend::InvSrcAlpha)) {}
 
@@ -45,31 +46,33 @@ class SeedTechnique final : public ITechnique {
   const GpuMaterial* FinMaterial(const GpuModel& model, const GpuPart& part) const {
     const GpuMaterial& own = model.materials[part.material];
     if (own.shells > 0) return &own;
-    return settings_.look == Look::Seed ? &model.materials[size_t(model.firstFur)] : nullptr;
+    const bool demo = settings_.preset == Preset::DemoFur && settings_.look == Look::Seed;
+    return demo ? &model.materials[size_t(model.firstFur)] : nullptr;
   }
 
   void DrawFins(rhi::IContext& context, const GpuModel& model, const FrameInputs& in) {
+    const uint32_t indicesOfEdge = traits_.fins == rhi::PrimitiveTopology::LineListAdj ? 4 : 2;
     PassBinding::SetShaders(context, in, shaders_.finVS.get(), shaders_.finGS.get(), shaders_.finPS.get());
-    context.IASetPrimitiveTopology(rhi::PrimitiveTopology::LineListAdj);
+    context.IASetPrimitiveTopology(traits_.fins);
     BeginBlending(context);
     for (const glm::dmat4& placement : in.placements)
       for (const GpuPart& part : model.parts) {
         const GpuMaterial* material = FinMaterial(model, part);
         const GpuGeometry& g = model.geometry[part.primitive];
         if (!material || g.finIndexCount == 0) continue;
-        context.RSSetState(binding_.Cull(part, rhi::CullMode::Back));
+        context.RSSetState(binding_.Cull(part, traits_.finCull));
         binding_.SetMaterial(context, *material);
         PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.finIndices.get());
         binding_.SetObject(context, in, placement, part);
         context.DrawIndexed(g.finIndexCount, 0, 0);
         ++in.counts->draws;
-        in.counts->edges += g.finIndexCount / 4;
+        in.counts->edges += g.finIndexCount / indicesOfEdge;
       }
     context.GSSetShader(nullptr);
   }
 
   void DrawShells(rhi::IContext& context, const GpuModel& model, const FrameInputs& in) {
-    PassBinding::SetShaders(context, in, shaders_.shellVS.get(), nullptr, shaders_.shellPS.get());
+    PassBinding::SetShaders(context, in, shaders_.shellVS.get(), shaders_.shellGS.get(), shaders_.shellPS.get());
     context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
     BeginBlending(context);
     for (const glm::dmat4& placement : in.placements)
@@ -81,10 +84,25 @@ class SeedTechnique final : public ITechnique {
         binding_.SetMaterial(context, material);
         PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.indices.get());
         binding_.SetObject(context, in, placement, part);
-        context.DrawIndexedInstanced(g.indexCount, material.shells, 0, 0, 0);
-        ++in.counts->draws;
+        in.counts->draws += DrawEachShell(context, g, material.shells);
+        // Amplified: submitted once, but that many leave the geometry shader.
         in.counts->triangles += uint64_t(g.indexCount / 3) * material.shells;
       }
+    context.GSSetShader(nullptr);
+  }
+
+  // Number of draws.
+  uint32_t DrawEachShell(rhi::IContext& context, const GpuGeometry& g, uint32_t shells) {
+    switch (traits_.shells) {
+      case ShellMode::Instanced: context.DrawIndexedInstanced(g.indexCount, shells, 0, 0, 0); return 1;
+      case ShellMode::Amplified: context.DrawIndexed(g.indexCount, 0, 0); return 1;
+      case ShellMode::Draws: break;
+    }
+    for (uint32_t shell = 0; shell < shells; ++shell) {
+      binding_.SetDraw(context, glm::vec4(float(shell), 1, 0, 0));
+      context.DrawIndexed(g.indexCount, 0, 0);
+    }
+    return shells;
   }
 
   void BeginBlending(rhi::IContext& context) const {
@@ -93,6 +111,7 @@ class SeedTechnique final : public ITechnique {
   }
 
   RenderSettings settings_;
+  const PresetTraits& traits_;
   PassBinding binding_;
   BasePass base_;
   Shaders shaders_;
@@ -103,11 +122,13 @@ class SeedTechnique final : public ITechnique {
 }  // namespace
 
 Result<std::unique_ptr<ITechnique>> MakeSeedTechnique(rhi::IDevice& device, const RenderSettings& settings) {
+  if (Result<Done> ok = CheckPreset(device.GetCaps(), settings); !ok) return ok.error();
   if (settings.drawFins && !device.GetCaps().geometryShader)
     return Error{ErrorCode::NoDevice, "the seed technique raises its fins in a geometry shader, which " +
                                           std::string(device.GetCaps().adapter.data()) + " does not have; try --no-fins"};
   Creation creation(device);
-  auto technique = std::make_unique<SeedTechnique>(creation, settings);
+  const PresetShaders blobs = ShadersOf(settings, settings.shells);
+  auto technique = std::make_unique<PublishedTechnique>(creation, settings, blobs);
   if (creation.Failed()) return creation.Failure();
   return std::unique_ptr<ITechnique>(std::move(technique));
 }

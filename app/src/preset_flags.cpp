@@ -1,0 +1,65 @@
+#include "preset_flags.h"
+
+#include <fmt/format.h>
+
+namespace app {
+namespace {
+
+using fur::Error;
+using fur::ErrorCode;
+using fur::Preset;
+
+struct Owned {
+  const char* flag;
+  std::set<Preset> owners;
+};
+
+// Flags that act in some presets only; those of technique shells alone act in none.
+const Owned kOwned[] = {
+    {"--coat", {Preset::FourCoats}},
+    {"--dead-zone", {Preset::GsShells, Preset::FourCoats}},
+    {"--fin-threshold", {Preset::NvidiaD3d10}},
+    {"--fin-opacity", {Preset::NvidiaD3d10}},
+    {"--comb", {Preset::NvidiaD3d10}},
+    {"--comb-strength", {Preset::NvidiaD3d10}},
+    {"--bend", {}},
+    {"--shell-mode", {}},
+    {"--fins", {}},
+    {"--no-back-faces", {}},
+    {"--no-sort", {}},
+};
+
+}  // namespace
+
+fur::Result<fur::Done> SetPreset(const std::string& preset, const std::string& coat, const std::set<std::string>& given,
+                                 fur::RenderSettings* s) {
+  const auto has = [&](const char* flag) { return given.contains(flag); };
+  if (preset.empty()) {
+    for (const char* flag : {"--coat", "--dead-zone"})
+      if (has(flag)) return Error{ErrorCode::Usage, fmt::format("{} belongs to a --preset that has it", flag)};
+    return fur::Done{};
+  }
+  s->preset = Choose<Preset>(preset, {{"demo-fur", Preset::DemoFur},
+                                      {"nvidia-d3d10", Preset::NvidiaD3d10},
+                                      {"gs-shells", Preset::GsShells},
+                                      {"four-coats", Preset::FourCoats}});
+  s->fourCoat = Choose<fur::FourCoat>(coat, {{"bear", fur::FourCoat::Bear},
+                                             {"panther", fur::FourCoat::Panther},
+                                             {"snow", fur::FourCoat::Snow},
+                                             {"tiger", fur::FourCoat::Tiger}});
+  const bool demo = s->preset == Preset::DemoFur;
+  if (has("--technique") && s->technique != fur::Technique::Seed)
+    return Error{ErrorCode::Usage, fmt::format("--preset {} is drawn by --technique seed, not by --technique shells", preset)};
+  if (has("--look") && s->look != fur::Look::Seed && !demo)
+    return Error{ErrorCode::Usage, fmt::format("--preset {} has its own look: --look correct is for other pictures", preset)};
+  if (has("--semantics") && !demo)
+    return Error{ErrorCode::Usage, fmt::format("--preset {} draws its shells as sheets: --semantics does not go with it", preset)};
+  for (const Owned& o : kOwned)
+    if (has(o.flag) && !o.owners.contains(s->preset))
+      return Error{ErrorCode::Usage, fmt::format("{} does nothing in --preset {}", o.flag, preset)};
+  s->technique = fur::Technique::Seed;
+  if (!has("--look")) s->look = fur::Look::Seed;
+  return fur::Done{};
+}
+
+}  // namespace app
