@@ -5,5 +5,5 @@
 float4 PSMain(BaseVarying v) : SV_Target {
   float4 spot = spotMap.Sample(surfaceSampler, v.uv);
   float3 skin = SkinLambert(baseColorMap.Sample(surfaceSampler, v.uv).rgb, v.normal);
-  return float4(saturate(lerp(skin, Lambert(spot.rgb, v.normal), spot.a)), 1.0);
+  return float4(saturate(skin + (Lambert(spot.rgb, v.normal) - skin) * spot.a), 1.0);
 }

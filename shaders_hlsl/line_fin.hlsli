@@ -38,6 +38,6 @@ float2 AlongEdge(float2 uvA, float2 uvB) {
 }
 
 // x: along the edge, y: height. The coat is the lower half of the map; the rest is empty, so that nothing wraps around.
-float2 FinMapAt(float2 strand) { return float2(strand.x, lerp(1.0 / 256.0, 0.5, strand.y)); }
+float2 FinMapAt(float2 strand) { return float2(strand.x, 1.0 / 256.0 + (0.5 - 1.0 / 256.0) * strand.y); }
 
 #endif
