@@ -1,5 +1,5 @@
-// Fins of preset gs-shells: each end of an edge in the dead zone is pushed along its own vertex normal. The colour keeps
-// the line's texture coordinates; the opacity has new ones, along the edge and from root (0) to tip (1).
+// Fins of preset gs-shells: each end of an edge in the dead zone is pushed along its own vertex normal. The colour
+// keeps the line's texture coordinates; the opacity has new ones, along the edge and from root (0) to tip (1).
 #include "gs_shells.hlsli"
 #include "line_fin.hlsli"
 #include "vertex.hlsli"

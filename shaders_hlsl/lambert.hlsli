@@ -1,5 +1,4 @@
-// The light of presets gs-shells and four-coats: Lambert's, darkened towards the root, so that the skin lies in the fur's
-// shadow (docs/presets.md).
+// The light of presets gs-shells and four-coats: Lambert's; the skin lies in the fur's shadow (docs/presets.md).
 #ifndef FUR_LAMBERT_HLSLI
 #define FUR_LAMBERT_HLSLI
 #include "fur_constants.h"

@@ -28,8 +28,8 @@ bool InDeadZone(LinePoint a, LinePoint b) {
   return abs(Dot3(edgeNormal, UnitOr(middle, float3(0, 0, 1)))) < fin.z;
 }
 
-// Where the fin's opacity is read along the edge: tiles of the fur from a phase of the edge's own, so that strands are as
-// wide as on the shells and neighbouring fins do not repeat each other.
+// Where the fin's opacity is read along the edge: tiles of the fur from a phase of the edge's own, so that strands are
+// as wide as on the shells and neighbouring fins do not repeat each other.
 float2 AlongEdge(float2 uvA, float2 uvB) {
   float2 across = (uvB - uvA) * furShape.y;
   float phase = (uvA.x * 3.0 + uvA.y * 5.0) * furShape.y;

@@ -11,7 +11,7 @@ static const float kBald = 0.01;        // alpha below it is "no fur" (an 8-bit 
 
 struct FurPixel {
   float4 position : SV_Position;
-  float4 uvLayer : TEXCOORD0;  // z: slice, w: opacity of a fin, 1 on shells
+  float4 uvLayer : TEXCOORD0;  // z: slice, w: opacity of a fin
   float3 normal : TEXCOORD1;
   float4 tangent : TEXCOORD2;
   float3 fromEye : TEXCOORD3;
@@ -48,7 +48,10 @@ float3 NvidiaLight(float3 albedo, float3 strand, float3 fromEye, float height) {
   return color * (furLight.x + (1.0 - furLight.x) * height);
 }
 
-float4 ShadePixel(FurPixel v) {
+// `opacity`: of the whole fin. Shells do not read theirs from the vertex: a driver that sees a constant leave the
+// vertex shader puts it into the pixel shader, another interpolates it to nearly 1, and an opacity half way between two
+// steps of 8 bits is rounded apart.
+float4 ShadePixel(FurPixel v, float opacity) {
   float4 fur = furVolume.Sample(volumeSampler, float3(v.uvLayer.xy * furShape.y, v.uvLayer.z));
   float4 color = baseColorMap.Sample(surfaceSampler, v.uvLayer.xy);
   if (color.a < kBald || fur.a < 0.01) discard;
@@ -57,7 +60,7 @@ float4 ShadePixel(FurPixel v) {
   float3 tangent = UnitOr(v.tangent.xyz, float3(1, 0, 0));
   float3 side = Cross3(normal, tangent) * v.tangent.w;
   float3 strand = UnitOr(FromFrame(UnpackStrand(fur.rgb), tangent, side, normal), normal);
-  float alpha = fur.a * (1.0 - furLight.w * height) * v.uvLayer.w;
+  float alpha = fur.a * (1.0 - furLight.w * height) * opacity;
   return float4(NvidiaLight(color.rgb, strand, v.fromEye, height), alpha);
 }
 

@@ -1,4 +1,4 @@
-// Fins of preset nvidia-d3d10: a strip of four vertices on each edge of the silhouette, and on those that are nearly one.
+// Fins of preset nvidia-d3d10: a strip of four vertices on each edge that is part of the silhouette, or nearly so.
 #include "nvidia.hlsli"
 #include "vertex.hlsli"
 
@@ -52,4 +52,4 @@ void GSMain(lineadj FinPoint v[4], inout TriangleStream<FurPixel> fins) {
   }
 }
 
-float4 PSMain(FurPixel v) : SV_Target { return ShadePixel(v); }
+float4 PSMain(FurPixel v) : SV_Target { return ShadePixel(v, v.uvLayer.w); }

@@ -49,11 +49,14 @@ fur::Result<fur::Done> SetPreset(const std::string& preset, const std::string& c
                                              {"tiger", fur::FourCoat::Tiger}});
   const bool demo = s->preset == Preset::DemoFur;
   if (has("--technique") && s->technique != fur::Technique::Seed)
-    return Error{ErrorCode::Usage, fmt::format("--preset {} is drawn by --technique seed, not by --technique shells", preset)};
+    return Error{ErrorCode::Usage,
+                 fmt::format("--preset {} is drawn by --technique seed, not by --technique shells", preset)};
   if (has("--look") && s->look != fur::Look::Seed && !demo)
-    return Error{ErrorCode::Usage, fmt::format("--preset {} has its own look: --look correct is for other pictures", preset)};
+    return Error{ErrorCode::Usage,
+                 fmt::format("--preset {} has its own look: --look correct is for other pictures", preset)};
   if (has("--semantics") && !demo)
-    return Error{ErrorCode::Usage, fmt::format("--preset {} draws its shells as sheets: --semantics does not go with it", preset)};
+    return Error{ErrorCode::Usage,
+                 fmt::format("--preset {} draws its shells as sheets: --semantics does not go with it", preset)};
   for (const Owned& o : kOwned)
     if (has(o.flag) && !o.owners.contains(s->preset))
       return Error{ErrorCode::Usage, fmt::format("{} does nothing in --preset {}", o.flag, preset)};

@@ -17,8 +17,8 @@ T Choose(const std::string& text, std::initializer_list<std::pair<const char*, T
   return choices.begin()->second;
 }
 
-// Sets the preset, its coat, technique and look. `given`: the names of the flags on the command line. Usage, in words, for
-// flags that contradict the preset or that it does not have.
+// Sets the preset, its coat, technique and look. `given`: the names of the flags on the command line. Usage, in words,
+// for flags that contradict the preset or that it does not have.
 fur::Result<fur::Done> SetPreset(const std::string& preset, const std::string& coat, const std::set<std::string>& given,
                                  fur::RenderSettings* settings);
 

@@ -223,8 +223,8 @@ class Uploader {
     return c;
   }
 
-  // Shells of a preset that asks for it are a thousandth of the model's diameter apart, in the material's units: those of
-  // the first part that wears it.
+  // Shells of a preset that asks for it are a thousandth of the model's diameter apart, in the material's units: those
+  // of the first part that wears it.
   double FurLength(uint32_t material, const FurParams& p, uint32_t shells) const {
     if (settings_.spacing > 0) return settings_.spacing * shells;
     if (!Traits().spacingOfDiameter) return p.length * Traits().lengthShare;
@@ -263,7 +263,9 @@ class Uploader {
     if (light[0] > 0) c->furLight = {light[0], light[1], light[2], c->furLight.w};
     if (traits.opacityMap) gpu->opacityMap = ImageTexture(OpacityMap(WithoutTopSlice(volume)), MipFilter::Raw);
     if (traits.finMap) gpu->finMap = ImageTexture(FinMap(WithoutTopSlice(volume)), MipFilter::Raw);
-    if (traits.spots) gpu->spots = ImageTexture(FurlessSpots(Tinted(ColorImage(m), RawFactor(m)), model_, m), MipFilter::Raw);
+    if (!traits.spots) return;
+    const Image color = Tinted(ColorImage(m), RawFactor(m));
+    gpu->spots = ImageTexture(FurlessSpots(color, model_, m), MipFilter::Raw);
   }
 
   GpuMaterial MakeMaterial(uint32_t index) {

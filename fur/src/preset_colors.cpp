@@ -84,7 +84,8 @@ dvec3 PlainColor(FourCoat coat, const Place& at) {
   return Bear(at);
 }
 
-// With streaks that run along the body and down the limbs, so that a coat whose hairs are too thin to be seen is not flat.
+// With streaks that run along the body and down the limbs, so that a coat whose hairs are too thin to be seen is not
+// flat.
 dvec3 CoatColor(FourCoat coat, const Place& at) {
   const double along = Noise(at.p * dvec3(130, 130, 34)), down = Noise(at.p * dvec3(130, 30, 130));
   return PlainColor(coat, at) * (1 + 0.22 * glm::mix(along, down, Step(0.5, 0.3, at.h)));
@@ -139,7 +140,8 @@ class Painter {
         if (b < -kSlack || c < -kSlack || b + c > 1 + kSlack) continue;
         const double a = 1 - b - c;
         const Place &u = t[0].place, &v = t[1].place, &w = t[2].place;
-        Set(int(x), int(y), CoatColor(coat_, {u.p * a + v.p * b + w.p * c, u.n * a + v.n * b + w.n * c, u.h * a + v.h * b + w.h * c}));
+        Set(int(x), int(y),
+            CoatColor(coat_, {u.p * a + v.p * b + w.p * c, u.n * a + v.n * b + w.n * c, u.h * a + v.h * b + w.h * c}));
       }
   }
 
@@ -150,7 +152,8 @@ class Painter {
     Image out{"coat", kSide, kSide, {}};
     for (size_t i = 0; i < colors_.size(); ++i) {
       const dvec3 c = glm::clamp(painted_[i] ? colors_[i] : plain, 0.0, 1.0) * 255.0;
-      out.pixels.insert(out.pixels.end(), {uint8_t(std::lround(c.r)), uint8_t(std::lround(c.g)), uint8_t(std::lround(c.b)), 255});
+      out.pixels.insert(out.pixels.end(),
+                        {uint8_t(std::lround(c.r)), uint8_t(std::lround(c.g)), uint8_t(std::lround(c.b)), 255});
     }
     return out;
   }

@@ -53,7 +53,8 @@ FurVolume WithoutTopSlice(FurVolume volume) {
 Image LengthInAlpha(const Image& color, const Model& model, const Material& m) {
   const LengthMap length(model, m);
   if (!length.image) return color;
-  return Combine(color, length, "colour and length", [](const glm::dvec4& c, double l) { return glm::dvec4(glm::dvec3(c), l); });
+  return Combine(color, length, "colour and length",
+                 [](const glm::dvec4& c, double l) { return glm::dvec4(glm::dvec3(c), l); });
 }
 
 Image FurlessSpots(const Image& color, const Model& model, const Material& m) {
@@ -88,7 +89,8 @@ Image FinMap(const FurVolume& v) {
   // The densest texel of a band: a hair that leans out of one row is still seen.
   const auto at = [&](uint32_t x, uint32_t slice) {
     double most = 0;
-    for (uint32_t k = 0; k < std::min(kBand, v.height); ++k) most = std::max(most, Coverage(v, x, v.height / 3 + k, slice));
+    for (uint32_t k = 0; k < std::min(kBand, v.height); ++k)
+      most = std::max(most, Coverage(v, x, v.height / 3 + k, slice));
     return most;
   };
   Image out{"fin map", v.width, 2 * kRows, {}};

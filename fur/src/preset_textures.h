@@ -12,7 +12,8 @@ FurVolume WithoutTopSlice(FurVolume);
 // Preset nvidia-d3d10: the colour with the length map in its alpha. A material without a length map keeps the alpha.
 Image LengthInAlpha(const Image& color, const Model&, const Material&);
 
-// Preset gs-shells. Grey: how much hair stands above a texel of the tile, 0..1 for the coat's own range; 1 for an even one.
+// Preset gs-shells. Grey: how much hair stands above a texel of the tile, 0..1 for the coat's own range; 1 for an even
+// one.
 Image OpacityMap(const FurVolume&);
 // The coat from the side: u along the tile, v 0 the root, 1/2 the tip, empty above (the sampler wraps). Grey:
 // coverage of the hairs in a narrow band.
@@ -21,8 +22,8 @@ Image FinMap(const FurVolume&);
 // Without a length map nothing is bare.
 Image FurlessSpots(const Image& color, const Model&, const Material&);
 
-// Preset four-coats: the colours of a furred material, in its texture coordinates, painted by a function of the place on
-// the body. Where several places share a texel the last triangle's stands.
+// Preset four-coats: the colours of a furred material, in its texture coordinates, painted by a function of the place
+// on the body. Where several places share a texel the last triangle's stands.
 Image PaintCoat(const Model&, uint32_t material, FourCoat);
 
 }  // namespace fur

@@ -10,7 +10,8 @@
 namespace fur {
 namespace {
 
-constexpr uint32_t kMaxScalars = 1024;  // that one run of a geometry shader may emit: Direct3D 10, and Vulkan's and GL's least
+constexpr uint32_t kMaxScalars =
+    1024;  // that one run of a geometry shader may emit: Direct3D 10, and Vulkan's and GL's least
 constexpr uint32_t kPublishedCoatShells = 30;  // the fourth description's 90 vertices
 
 constexpr std::array<PresetTraits, 4> kTraits{{
@@ -89,8 +90,8 @@ PresetShaders FourCoatsShaders(uint32_t shells) {
   s.finGS = &shaders::four_coats_fin_GSMain;
   s.finPS = &shaders::four_coats_fin_PSMain;
   s.shellVS = &shaders::four_coats_shell_VSMain;
-  s.shellGS = shells > kPublishedCoatShells ? &shaders::four_coats_shell_GSMain_most
-                                            : &shaders::four_coats_shell_GSMain;
+  s.shellGS =
+      shells > kPublishedCoatShells ? &shaders::four_coats_shell_GSMain_most : &shaders::four_coats_shell_GSMain;
   s.shellPS = &shaders::four_coats_shell_PSMain;
   s.furredBase = &shaders::four_coats_base_PSMain;
   return s;
@@ -142,8 +143,9 @@ Result<Done> CheckPreset(const rhi::Caps& caps, const RenderSettings& settings) 
                                        " is drawn by technique seed with look seed: it has its own look"};
   if (!settings.drawShells || traits.shells != ShellMode::Amplified) return Done{};
   if (!caps.geometryShader)
-    return Error{ErrorCode::NoDevice, std::string("preset ") + traits.name + " makes its shells in a geometry shader, which " +
-                                          caps.adapter.data() + " does not have; try --preset nvidia-d3d10 or --no-shells"};
+    return Error{ErrorCode::NoDevice, std::string("preset ") + traits.name +
+                                          " makes its shells in a geometry shader, which " + caps.adapter.data() +
+                                          " does not have; try --preset nvidia-d3d10 or --no-shells"};
   return CheckAmplification(caps, traits, ShellCount(settings, 0, 0));
 }
 

@@ -24,15 +24,15 @@ struct Amplification {
 
 struct PresetTraits {
   const char* name;
-  ShellMode shells;                       // how they are drawn
-  rhi::PrimitiveTopology fins;            // LineListAdj or LineList
-  rhi::CullMode finCull;                  // a strip on an edge has no outside
-  uint32_t defaultShells = 0;             // 0: as the coat says
-  Amplification amplification;            // shells == Amplified
-  bool lengthInAlpha = false;             // of the colour texture
+  ShellMode shells;                                                            // how they are drawn
+  rhi::PrimitiveTopology fins;                                                 // LineListAdj or LineList
+  rhi::CullMode finCull;                                                       // a strip on an edge has no outside
+  uint32_t defaultShells = 0;                                                  // 0: as the coat says
+  Amplification amplification;                                                 // shells == Amplified
+  bool lengthInAlpha = false;                                                  // of the colour texture
   bool opacityMap = false, finMap = false, spots = false, coatColors = false;  // textures made by the program
-  bool spacingOfDiameter = false;         // shells a thousandth of the model's diameter apart; else the coat's length
-  double lengthShare = 1;                 // of the coat's length
+  bool spacingOfDiameter = false;  // shells a thousandth of the model's diameter apart; else the coat's length
+  double lengthShare = 1;          // of the coat's length
   // furLight.xyz instead of the coat's, where x > 0. nvidia-d3d10: light left at the root, power and scale of the
   // highlight. gs-shells, four-coats: light left on the skin, and between the hairs.
   std::array<float, 3> furLight{};
@@ -49,8 +49,8 @@ uint32_t ShellCount(const RenderSettings&, uint32_t coatShells, uint32_t volumeL
 // 1,024 scalars, by the description's own number, or by what the device allows.
 Result<Done> CheckPreset(const rhi::Caps&, const RenderSettings&);
 
-// Indices of the edges that may grow a fin, in the preset's topology. Preset demo-fur: as its demo makes them, by index.
-// Others: each edge once, welded by position.
+// Indices of the edges that may grow a fin, in the preset's topology. Preset demo-fur: as its demo makes them, by
+// index. Others: each edge once, welded by position.
 std::vector<uint32_t> FinIndices(const Primitive&, Preset);
 
 }  // namespace fur

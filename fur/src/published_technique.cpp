@@ -37,7 +37,8 @@ class PublishedTechnique final : public ITechnique {
     binding_.BindFrame(context, in);
     RunPass(context, in, Pass::Base, [&] { base_.Draw(context, binding_, model, in); });
     context.IASetInputLayout(layout_.get());
-    if (settings_.drawFins && model.firstFur >= 0) RunPass(context, in, Pass::Fins, [&] { DrawFins(context, model, in); });
+    if (settings_.drawFins && model.firstFur >= 0)
+      RunPass(context, in, Pass::Fins, [&] { DrawFins(context, model, in); });
     if (settings_.drawShells) RunPass(context, in, Pass::Shells, [&] { DrawShells(context, model, in); });
   }
 
@@ -125,7 +126,8 @@ Result<std::unique_ptr<ITechnique>> MakeSeedTechnique(rhi::IDevice& device, cons
   if (Result<Done> ok = CheckPreset(device.GetCaps(), settings); !ok) return ok.error();
   if (settings.drawFins && !device.GetCaps().geometryShader)
     return Error{ErrorCode::NoDevice, "the seed technique raises its fins in a geometry shader, which " +
-                                          std::string(device.GetCaps().adapter.data()) + " does not have; try --no-fins"};
+                                          std::string(device.GetCaps().adapter.data()) +
+                                          " does not have; try --no-fins"};
   Creation creation(device);
   const PresetShaders blobs = ShadersOf(settings, settings.shells);
   auto technique = std::make_unique<PublishedTechnique>(creation, settings, blobs);

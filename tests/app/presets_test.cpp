@@ -8,8 +8,8 @@ namespace {
 
 fur::Image RenderBoth(const std::vector<std::string>& flags, nlohmann::json* stats = nullptr) {
   const Folder folder;
-  std::vector<std::string> all{"render", "-o",     folder / "x.png", "--backend", "both", "--validate",
-                               "--size", "160x120", "--stats",        folder / "s.json"};
+  std::vector<std::string> all{"render",     "-o",     folder / "x.png", "--backend", "both",
+                               "--validate", "--size", "160x120",        "--stats",   folder / "s.json"};
   std::string shown;
   for (const std::string& f : flags) shown += " " + f;
   SCOPED_TRACE("flags:" + shown);
@@ -31,12 +31,14 @@ TEST(Preset, EachIsAPictureOfItsOwn) {
     EXPECT_EQ(stats.value("preset", ""), preset);
     EXPECT_EQ(stats.value("technique", ""), "seed");
     EXPECT_EQ(stats.value("look", ""), "seed");
-    for (size_t i = 0; i + 1 < images.size(); ++i) EXPECT_GT(DifferingPixels(images[i], images.back()), 2000u) << preset;
+    for (size_t i = 0; i + 1 < images.size(); ++i)
+      EXPECT_GT(DifferingPixels(images[i], images.back()), 2000u) << preset;
   }
   EXPECT_EQ(DifferingPixels(images[0], RenderBoth({"--technique", "seed", "--look", "seed"})), 0u)
       << "demo-fur is technique seed with look seed";
   EXPECT_EQ(DifferingPixels(RenderBoth({"--preset", "demo-fur", "--look", "correct"}),
-                            RenderBoth({"--technique", "seed", "--look", "correct"})), 0u);
+                            RenderBoth({"--technique", "seed", "--look", "correct"})),
+            0u);
 }
 
 TEST(Preset, FourCoats) {
@@ -82,24 +84,23 @@ struct Refused {
   std::vector<std::string> words;
 };
 TEST(Preset, ContradictionsAreRefused) {
-  const Refused refused[] = {
-      {{"--preset", "magic"}, {"--preset", "magic"}},
-      {{"--preset", "gs-shells", "--technique", "shells"}, {"gs-shells", "--technique"}},
-      {{"--preset", "demo-fur", "--technique", "shells"}, {"demo-fur", "--technique"}},
-      {{"--preset", "nvidia-d3d10", "--look", "correct"}, {"nvidia-d3d10", "--look"}},
-      {{"--preset", "nvidia-d3d10", "--semantics", "volume"}, {"nvidia-d3d10", "--semantics"}},
-      {{"--coat", "bear"}, {"--coat", "--preset"}},
-      {{"--dead-zone", "0.1"}, {"--dead-zone", "--preset"}},
-      {{"--preset", "gs-shells", "--coat", "bear"}, {"--coat", "gs-shells"}},
-      {{"--preset", "four-coats", "--coat", "zebra"}, {"--coat", "zebra"}},
-      {{"--preset", "gs-shells", "--comb", "1,0,0"}, {"--comb", "gs-shells"}},
-      {{"--preset", "four-coats", "--fin-threshold", "0.1"}, {"--fin-threshold", "four-coats"}},
-      {{"--preset", "nvidia-d3d10", "--dead-zone", "0.1"}, {"--dead-zone", "nvidia-d3d10"}},
-      {{"--preset", "gs-shells", "--dead-zone", "nan"}, {"--dead-zone"}},
-      {{"--preset", "gs-shells", "--dead-zone", "1.5"}, {"--dead-zone"}},
-      {{"--preset", "nvidia-d3d10", "--fins", "pulled"}, {"--fins", "nvidia-d3d10"}},
-      {{"--preset", "four-coats", "--shells", "40"}, {"40 shells", "1200", "1024", "34"}},
-      {{"--preset", "gs-shells", "--shells", "29"}, {"29 shells", "1044", "1024", "28"}}};
+  const Refused refused[] = {{{"--preset", "magic"}, {"--preset", "magic"}},
+                             {{"--preset", "gs-shells", "--technique", "shells"}, {"gs-shells", "--technique"}},
+                             {{"--preset", "demo-fur", "--technique", "shells"}, {"demo-fur", "--technique"}},
+                             {{"--preset", "nvidia-d3d10", "--look", "correct"}, {"nvidia-d3d10", "--look"}},
+                             {{"--preset", "nvidia-d3d10", "--semantics", "volume"}, {"nvidia-d3d10", "--semantics"}},
+                             {{"--coat", "bear"}, {"--coat", "--preset"}},
+                             {{"--dead-zone", "0.1"}, {"--dead-zone", "--preset"}},
+                             {{"--preset", "gs-shells", "--coat", "bear"}, {"--coat", "gs-shells"}},
+                             {{"--preset", "four-coats", "--coat", "zebra"}, {"--coat", "zebra"}},
+                             {{"--preset", "gs-shells", "--comb", "1,0,0"}, {"--comb", "gs-shells"}},
+                             {{"--preset", "four-coats", "--fin-threshold", "0.1"}, {"--fin-threshold", "four-coats"}},
+                             {{"--preset", "nvidia-d3d10", "--dead-zone", "0.1"}, {"--dead-zone", "nvidia-d3d10"}},
+                             {{"--preset", "gs-shells", "--dead-zone", "nan"}, {"--dead-zone"}},
+                             {{"--preset", "gs-shells", "--dead-zone", "1.5"}, {"--dead-zone"}},
+                             {{"--preset", "nvidia-d3d10", "--fins", "pulled"}, {"--fins", "nvidia-d3d10"}},
+                             {{"--preset", "four-coats", "--shells", "40"}, {"40 shells", "1200", "1024", "34"}},
+                             {{"--preset", "gs-shells", "--shells", "29"}, {"29 shells", "1044", "1024", "28"}}};
   for (const Refused& r : refused) ExpectRenderFailure(r.flags, kUsage, r.words);
 }
 

@@ -148,7 +148,8 @@ TEST_P(PresetFins, EachEdgeIsSubmittedOnce) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- nvidia's fade, its defect
+// ---------------------------------------------------------------------------------------------- nvidia's fade, its
+// defect
 constexpr double kFold = 4.3, kGraze = 7.2;  // degrees: e.n of the two slopes is sin(7.2 +- 4.3)
 
 // A ridge along x, nearly flat; vertices point up (+Z). `nearFirst`: the slope towards +Y is the first triangle. The

@@ -20,7 +20,8 @@ enum class Look {
   Seed,    // as published: raw texture values, no transfer function
   Correct  // docs/accuracy.md: sRGB decoded, blended in linear light
 };
-// Whose published shells and fins technique seed draws (docs/presets.md). All but DemoFur want look seed and are sheets.
+// Whose published shells and fins technique seed draws: docs/presets.md. All but DemoFur want look seed; their shells
+// are sheets whatever the semantics.
 enum class Preset {
   DemoFur,      // the second description's demo: docs/seed.md
   NvidiaD3d10,  // the first: a draw for each shell, length in alpha, comb, fins with a threshold
@@ -68,7 +69,7 @@ struct RenderSettings {
   glm::dvec3 background{0};  // linear for Correct, raw for Seed
   Light light;
 
-  // Technique shells only; the four of the fins, the comb and the spacing also where a preset has them.
+  // Technique shells only; but fins' threshold and opacity, the comb and the spacing also where a preset has them.
   ShellMode shellMode = ShellMode::Instanced;
   // Amplified: 1..14. Above 1 the triangles are sorted back to front and the picture is that of the other modes only
   // where the fur of no two limbs overlaps: docs/measured.md.
