@@ -24,6 +24,7 @@ const Owned kOwned[] = {
     {"--comb-strength", {Preset::NvidiaD3d10}},
     {"--bend", {}},
     {"--shell-mode", {}},
+    {"--shells-at-once", {}},
     {"--fins", {}},
     {"--no-back-faces", {}},
     {"--no-sort", {}},
