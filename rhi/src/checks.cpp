@@ -83,6 +83,10 @@ Status CheckTextureData(const TextureDesc& d, const SubresourceData* init, const
 
 }  // namespace
 
+TextureDim ShownDim(const TextureDesc& d, const ViewDesc& v, bool written) {
+  return d.dim == TextureDim::TexCube && (written || v.sliceCount != 6) ? TextureDim::Tex2DArray : d.dim;
+}
+
 uint32_t SliceCount(const TextureDesc& d) { return d.dim == TextureDim::Tex3D ? 1 : d.depthOrArray; }
 uint32_t MipSize(uint32_t size, uint32_t mip) { return std::max(1u, mip < 32 ? size >> mip : 0u); }
 

@@ -196,8 +196,9 @@ void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITextur
 
 Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch) {
   Texture* t = AsTexture(texture);
-  if (!t || subresource >= t->SubresourceCount())
-    return Refuse(MsgCode::SubresourceOutOfRange, t ? t->Desc().name : "", "ReadBack: the subresource does not exist");
+  if (!t) return Refuse(MsgCode::InvalidDesc, "", "ReadBack: the texture is null");
+  if (subresource >= t->SubresourceCount())
+    return Refuse(MsgCode::SubresourceOutOfRange, t->Desc().name, "ReadBack: the subresource does not exist");
   if (t->Desc().sampleCount > 1)
     return Refuse(MsgCode::FormatMismatch, t->Desc().name, "ReadBack of a multisampled texture; resolve it first");
   const MipLayout m = t->Layout(subresource);
@@ -213,8 +214,9 @@ Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, siz
 
 Status Context::ReadBack(IBuffer* buffer, uint32_t offset, uint32_t size, void* out) {
   const Buffer* b = AsBuffer(buffer);
-  if (!b || uint64_t(offset) + size > b->bytes.size())
-    return Refuse(MsgCode::OutOfBounds, b ? b->Desc().name : "", "ReadBack beyond the end of the buffer");
+  if (!b) return Refuse(MsgCode::InvalidDesc, "", "ReadBack: the buffer is null");
+  if (uint64_t(offset) + size > b->bytes.size())
+    return Refuse(MsgCode::OutOfBounds, b->Desc().name, "ReadBack beyond the end of the buffer");
   std::memcpy(out, b->bytes.data() + offset, size);
   return Status::Ok;
 }

@@ -83,6 +83,12 @@ void Context::GenerateMips(IShaderResourceView* view) {
              kCall, uint32_t(d.bind));
     return;
   }
+  if (view->Desc().format != d.format) {
+    v_.Error(MsgCode::FormatMismatch, view,
+             "%s of a view as %s of a texture of %s; take a view of the texture's own format; the call is ignored", kCall,
+             ToString(view->Desc().format), ToString(d.format));
+    return;
+  }
   if (!(device_.CheckFormatSupport(d.format) & FormatSupport::MipAutogen) || d.sampleCount > 1) {
     v_.Error(MsgCode::FormatMismatch, view,
              "%s: %s of %u samples cannot be filtered; see FormatSupport::MipAutogen; the call is ignored", kCall,

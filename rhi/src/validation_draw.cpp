@@ -250,7 +250,7 @@ bool Context::CheckIndirect(const char* call, IBuffer* args, uint32_t offset, ui
 
 void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
   constexpr const char* kCall = "DrawInstancedIndirect";
-  if (!CheckDraw(kCall, false) || !CheckIndirect(kCall, args, offset, sizeof(DrawArgs))) return;
+  if (!CheckIndirect(kCall, args, offset, sizeof(DrawArgs)) || !CheckDraw(kCall, false)) return;
   if (!CheckVertices(kCall, {}, false)) return;  // only what is bound: the counts are the GPU's
   CountWork();
   inner_.DrawInstancedIndirect(args, offset);
@@ -258,7 +258,7 @@ void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
 
 void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
   constexpr const char* kCall = "DrawIndexedInstancedIndirect";
-  if (!CheckDraw(kCall, true) || !CheckIndirect(kCall, args, offset, sizeof(DrawIndexedArgs))) return;
+  if (!CheckIndirect(kCall, args, offset, sizeof(DrawIndexedArgs)) || !CheckDraw(kCall, true)) return;
   if (!CheckVertices(kCall, {}, true)) return;
   CountWork();
   inner_.DrawIndexedInstancedIndirect(args, offset);
@@ -284,7 +284,7 @@ void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
 
 void Context::DispatchIndirect(IBuffer* args, uint32_t offset) {
   constexpr const char* kCall = "DispatchIndirect";
-  if (!CheckDispatch(kCall) || !CheckIndirect(kCall, args, offset, sizeof(DispatchArgs))) return;
+  if (!CheckIndirect(kCall, args, offset, sizeof(DispatchArgs)) || !CheckDispatch(kCall)) return;
   CountWork();
   inner_.DispatchIndirect(args, offset);
 }

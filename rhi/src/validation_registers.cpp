@@ -83,9 +83,8 @@ bool Context::CheckView(const char* call, const IShader& shader, const ShaderRes
                "the size of the shader's struct; it is skipped",
                call, letter, uint32_t(r.slot), r.name, r.stride, Name(resource), stride);
   }
-  TextureDim dim = static_cast<const ITexture*>(resource)->Desc().dim;
-  // What is not a whole cube to be read is an array of faces.
-  if (dim == TextureDim::TexCube && (IsWritten(r) || view.Desc().sliceCount != 6)) dim = TextureDim::Tex2DArray;
+  const TextureDesc& desc = static_cast<const ITexture*>(resource)->Desc();
+  const TextureDim dim = backend::ShownDim(desc, view.Desc(), IsWritten(r));
   if (dim != r.dim)
     return v_.Error(MsgCode::ViewMismatch, {&shader, r.name},
                     "%s: %c%u (%s) is declared as %s, but the bound '%s' is %s; make the texture of that dim; it is "

@@ -83,7 +83,7 @@ void Context::BindPair(uint32_t unit, Stage stage, const Shader& shader, uint32_
 
 void Context::ReportUnbound(Stage stage, const ShaderResource& declared, bool other) {
   if (other) {
-    ReportOnce(Severity::Error, MsgCode::FormatMismatch,
+    ReportOnce(Severity::Error, MsgCode::ViewMismatch,
                "%s t%u: the view is of another kind than the shader's %s; it reads 0", ToString(stage), declared.slot,
                declared.name);
   } else {

@@ -113,6 +113,9 @@ void Context::GenerateMips(IShaderResourceView* target) {
   const TextureDesc& desc = view->texture->Desc();
   if (!(desc.bind & Bind::RenderTarget))
     return Refuse(MsgCode::WrongBindFlag, desc.name, "GenerateMips", "the texture needs Bind::RenderTarget");
+  if (view->desc.format != desc.format)
+    return Refuse(MsgCode::FormatMismatch, desc.name, "GenerateMips",
+                  "it takes a view of the texture's own format, not of its sRGB twin");
   if (!(QueryFormatSupport(desc.format, core_.caps) & FormatSupport::MipAutogen))
     return Refuse(MsgCode::CapMissing, desc.name, "GenerateMips",
                   "this format has no FormatSupport::MipAutogen on this adapter");

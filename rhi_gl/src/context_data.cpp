@@ -92,7 +92,6 @@ Status Context::MapTexture(Texture& t, uint32_t subresource, MapMode mode, Mappe
   if (Status s = WaitForCopies(&t.gpuTouched); s != Status::Ok) return s;
   const MipLayout m = t.Layout(subresource);
   std::byte* data = t.stagingData + t.StagingOffset(subresource);
-  if (t.Desc().format == Format::D24_UNorm_S8_UInt) DepthStencilFromGl(data, m.sliceBytes * m.depth / 4);
   t.mapped[subresource] = true;
   *out = {data, m.rowBytes, uint32_t(m.sliceBytes)};
   return Status::Ok;
@@ -120,9 +119,6 @@ void Context::Unmap(IResource* resource, uint32_t subresource) {
   if (b) b->mapped = false;
   if (b) return;
   t->mapped[subresource] = false;
-  const MipLayout m = t->Layout(subresource);
-  if (t->Desc().format == Format::D24_UNorm_S8_UInt)
-    DepthStencilToGl(t->stagingData + t->StagingOffset(subresource), m.sliceBytes * m.depth / 4);
 }
 
 // --------------------------------------------------------------------------------------------------------- read-back
@@ -130,8 +126,6 @@ void Context::Unmap(IResource* resource, uint32_t subresource) {
 namespace {
 
 const char* WhyNotRead(const Texture& t, uint32_t subresource, size_t capacity, uint32_t rowPitch) {
-  if (subresource >= t.SubresourceCount()) return "the subresource does not exist";
-  if (t.Desc().dim == TextureDim::Tex2DMS) return "a multisampled texture must be resolved first";
   const MipLayout m = t.Layout(subresource);
   if (rowPitch < m.rowBytes) return "rowPitch is less than a row";
   const uint64_t rows = uint64_t(m.rows) * m.depth;
@@ -143,8 +137,6 @@ void CopyStagingRows(const Texture& t, uint32_t subresource, std::byte* out, uin
   const std::byte* from = t.stagingData + t.StagingOffset(subresource);
   for (uint64_t row = 0; row < uint64_t(m.rows) * m.depth; ++row)
     std::memcpy(out + row * rowPitch, from + row * m.rowBytes, m.rowBytes);
-  if (t.Desc().format != Format::D24_UNorm_S8_UInt || t.mapped[subresource]) return;
-  for (uint64_t row = 0; row < m.rows; ++row) DepthStencilFromGl(out + row * rowPitch, m.width);
 }
 
 }  // namespace
@@ -152,11 +144,17 @@ void CopyStagingRows(const Texture& t, uint32_t subresource, std::byte* out, uin
 Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch) {
   const Texture* t = AsTexture(texture);
   if (t && rowPitch == 0 && subresource < t->SubresourceCount()) rowPitch = t->Layout(subresource).rowBytes;
-  if (const char* why = t ? WhyNotRead(*t, subresource, capacity, rowPitch) : "the texture is null") {
-    const bool exists = t && subresource < t->SubresourceCount();
-    Refuse(exists ? MsgCode::OutOfBounds : MsgCode::SubresourceOutOfRange, t ? t->Desc().name : "", "ReadBack", why);
+  const auto refuse = [&](MsgCode code, const char* why) {
+    Refuse(code, t ? t->Desc().name : "", "ReadBack", why);
     return Status::InvalidArg;
-  }
+  };
+  if (!t) return refuse(MsgCode::InvalidDesc, "the texture is null");
+  if (subresource >= t->SubresourceCount())
+    return refuse(MsgCode::SubresourceOutOfRange, "the subresource does not exist");
+  if (t->Desc().sampleCount > 1)
+    return refuse(MsgCode::FormatMismatch, "a multisampled texture must be resolved first");
+  if (const char* why = out ? WhyNotRead(*t, subresource, capacity, rowPitch) : "there is nowhere to write it")
+    return refuse(MsgCode::OutOfBounds, why);
   if (!Settle()) return Status::DeviceLost;
   if (Status s = FinishAll(); s != Status::Ok) return s;
   if (t->IsStaging()) {
@@ -171,8 +169,9 @@ Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, siz
 
 Status Context::ReadBack(IBuffer* buffer, uint32_t offset, uint32_t size, void* out) {
   const Buffer* b = AsBuffer(buffer);
-  if (!b || offset > b->Desc().byteWidth || size > b->Desc().byteWidth - offset) {
-    Refuse(MsgCode::OutOfBounds, b ? b->Desc().name : "", "ReadBack", b ? "it reaches beyond the end" : "null buffer");
+  if (!b || !out || offset > b->Desc().byteWidth || size > b->Desc().byteWidth - offset) {
+    Refuse(b ? MsgCode::OutOfBounds : MsgCode::InvalidDesc, b ? b->Desc().name : "", "ReadBack",
+           b ? "it reaches beyond the end, or there is nowhere to write it" : "the buffer is null");
     return Status::InvalidArg;
   }
   if (!Settle()) return Status::DeviceLost;

@@ -228,21 +228,26 @@ inline bool Context::CheckInputs(const Shader& vs, const Shader* gs) {
 
 // Finds the framebuffer and the program; false, with a message, if nothing can be drawn.
 inline bool Context::CheckGraphics() {
+  const Shader *vs = ShaderOf(state_, Stage::Vertex), *gs = ShaderOf(state_, Stage::Geometry);
+  if (!vs) {
+    ReportOnce(Severity::Error, MsgCode::NoVertexShader, "a draw is skipped: no vertex shader is set");
+    return false;
+  }
+  if (!CheckInputs(*vs, gs)) return false;
   if (dirty_ & DirtyTargets) framebuffer_ = &core_.framebuffers.Get(TargetsOf(state_));
   if (framebuffer_->problem != MsgCode::None) {
     ReportOnce(Severity::Error, framebuffer_->problem, "a draw is skipped: %s", framebuffer_->explanation.c_str());
     return false;
   }
-  const Shader *vs = ShaderOf(state_, Stage::Vertex), *gs = ShaderOf(state_, Stage::Geometry);
-  if (!vs) {
-    ReportOnce(Severity::Error, MsgCode::NoVertexShader, "a draw is skipped: no vertex shader is set");
+  if (state_.viewportCount == 0) {
+    ReportOnce(Severity::Error, MsgCode::NothingBound, "a draw is skipped: no viewport is set; call RSSetViewports");
     return false;
   }
   if (dirty_ & DirtyShaders) {
     program_ = &core_.programs.Get(vs, gs, ShaderOf(state_, Stage::Pixel), &stats_.pipelineMisses);
     ++stats_.pipelineLookups;
   }
-  if (program_->name != 0) return CheckInputs(*vs, gs);
+  if (program_->name != 0) return true;
   ReportOnce(Severity::Error, MsgCode::ShaderRejected, "a draw is skipped: its shaders did not link");
   return false;
 }

@@ -95,7 +95,7 @@ void Context::BeginEvent(const char* name) {
   if (!Enter()) return;
   // GL's stack holds itself as its first entry; deeper groups are counted only.
   if (++eventDepth_ >= core_.limits.maxDebugGroups) return;
-  const size_t length = std::min<size_t>(std::strlen(name), core_.limits.maxDebugMessage - 1);
+  const size_t length = std::min<size_t>(std::strlen(name = name ? name : ""), core_.limits.maxDebugMessage - 1);
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, GLsizei(length), name);
 }
 
@@ -114,8 +114,9 @@ Status Context::Precache(const PipelineKeyDesc& key) {
              *ps = static_cast<const Shader*>(key.ps);
   const bool fit =
       vs && vs->stage == Stage::Vertex && (!gs || gs->stage == Stage::Geometry) && (!ps || ps->stage == Stage::Pixel);
-  if (!fit) {
-    Refuse(MsgCode::NoVertexShader, "", "PrecachePipeline", "it needs a vertex shader, and each shader in its place");
+  if (!fit || key.rtvCount > kMaxRenderTargets) {
+    Refuse(MsgCode::NoVertexShader, "", "PrecachePipeline",
+           "it needs a vertex shader, each shader in its place, and at most 8 targets");
     return Status::InvalidArg;
   }
   const Program& program = core_.programs.Get(vs, gs, ps, &stats_.pipelineMisses);

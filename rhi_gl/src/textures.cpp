@@ -103,8 +103,6 @@ void Texture::UploadAll(const SubresourceData* init) {
       for (uint32_t y = 0; y < m.rows; ++y)
         std::memcpy(stagingData + offsets_[i] + z * m.sliceBytes + uint64_t(y) * m.rowBytes,
                     static_cast<const std::byte*>(from.data) + z * slicePitch + y * rowPitch, m.rowBytes);
-    if (desc_.format == Format::D24_UNorm_S8_UInt)
-      DepthStencilToGl(stagingData + offsets_[i], m.sliceBytes * m.depth / 4);
   }
 }
 

@@ -194,6 +194,9 @@ void Context::GenerateMips(IShaderResourceView* target) {
   if (!(t.Desc().bind & Bind::RenderTarget) || !(t.Desc().bind & Bind::ShaderResource))
     return Complain(MsgCode::WrongBindFlag, t.Name().c_str(),
                     "GenerateMips needs Bind::RenderTarget and ShaderResource");
+  if (view->Desc().format != t.Desc().format)
+    return Complain(MsgCode::FormatMismatch, t.Name().c_str(),
+                    "GenerateMips takes a view of the texture's own format, not of its sRGB twin");
   const FormatSupport support = QueryFormatSupport(core_->instance.vk, core_->adapter.handle, t.Desc().format);
   if (!(support & FormatSupport::MipAutogen))
     return Complain(MsgCode::CapMissing, t.Name().c_str(),

@@ -157,6 +157,10 @@ bool Context::PrepareDraw() {
   PassTargets targets;
   const bool newTargets = dirty_ & (backend::DirtyTargets | kDirtyPass);
   if (newTargets && !GatherTargets(&targets)) return false;
+  if (state_.viewportCount == 0) {
+    Report(Severity::Error, MsgCode::NothingBound, "", "draw without a viewport; call RSSetViewports; it is skipped");
+    return false;
+  }
   if (newTargets && inPass_ && !(targets == pass_)) EndPass(false);
   if (dirty_ & kDirtyInputs) UseInputs();
   RecordBarriers();
@@ -185,10 +189,6 @@ bool Context::CheckDraw() {
   if (vs->reflection.inputs.size && !state_.layout) {
     Report(Severity::Error, MsgCode::LayoutMismatch, vs->Name().c_str(),
            "the vertex shader has inputs but no input layout is bound; call IASetInputLayout; the draw is skipped");
-    return false;
-  }
-  if (state_.viewportCount == 0) {
-    Report(Severity::Error, MsgCode::NothingBound, "", "draw without a viewport; call RSSetViewports; it is skipped");
     return false;
   }
   return !gs || CheckGeometryInput(gs);

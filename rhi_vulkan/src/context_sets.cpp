@@ -7,6 +7,11 @@ namespace {
 
 constexpr uint32_t kMaxWrites = 32;  // 16 t and 16 s registers; u registers are 8
 
+bool Fits(const ShaderView& view, const ShaderResource& declared) {
+  if (declared.kind != ShaderResourceKind::Texture) return view.buffer != nullptr;
+  return view.texture && backend::ShownDim(view.texture->Desc(), view.Desc(), false) == declared.dim;
+}
+
 }  // namespace
 
 bool Context::BindConstants() {
@@ -94,12 +99,11 @@ void Context::AddResource(Stage stage, const ShaderResource& r) {
   const uint32_t binding = kVkTextureBinding + r.slot;
   auto* view = static_cast<ShaderView*>(state_.resources[size_t(stage)][r.slot].get());
   const bool wantsTexture = r.kind == ShaderResourceKind::Texture;
-  if (view && (view->texture != nullptr) != wantsTexture) {
-    Report(Severity::Error, MsgCode::FormatMismatch, r.name,
-           "a texture is bound where the shader reads a structured buffer, or the other way round; it reads 0");
+  if (view && !Fits(*view, r)) {
+    Report(Severity::Error, MsgCode::ViewMismatch, r.name,
+           "the view in a t register is of another kind or dimension than the shader's; it reads 0");
     view = nullptr;
-  }
-  if (!view)
+  } else if (!view)
     Report(Severity::Warning, MsgCode::NothingBound, r.name,
            "the shader reads a t register with nothing bound; it reads 0");
   if (wantsTexture) {

@@ -203,7 +203,8 @@ void Context::BeginEvent(const char* name) {
 }
 
 void Context::EndEvent() {
-  if (events_.empty()) return;
+  if (events_.empty())
+    return Report(Severity::Warning, MsgCode::QueryOrder, "", "EndEvent without a BeginEvent is ignored");
   events_.pop_back();
   CloseEvent();
 }

@@ -156,17 +156,13 @@ TEST_P(SliceTest, GenMipsOfAVolume) {
   }
 }
 
-// Of the twin format: texels are averaged as light though the texture is UNorm.
-TEST_P(SliceTest, DISABLED_GenMipsOfATwinView) {
+// A view of the twin format would be averaged as light; copies and blits know the texture's own format alone.
+TEST_P(SliceTest, GenMipsOfATwinViewAreRefused) {
+  gpu.sink.Expect(MsgCode::FormatMismatch, "the twin's mips are refused");
   TextureDesc desc = Desc(TextureDim::Tex2DArray, 2, 2, Bind::RenderTarget | Bind::ShaderResource);
-  const Ref<ITexture> t = gpu.TextureOf<Rgba8>(desc, [](uint32_t x, auto, auto, auto) {
-    const uint8_t v = x % 2 ? 255 : 0;
-    return Rgba8{v, v, v, v};
-  });
+  const Ref<ITexture> t = gpu.TextureOf<Rgba8>(desc, [](auto, auto, auto, auto) { return Rgba8{9, 9, 9, 9}; });
   const ViewDesc twin{.format = Format::RGBA8_UNorm_sRGB};
   context.GenerateMips(gpu.View(t.get(), &twin).get());
-  const uint8_t half = ToUnorm8(LinearToSrgb(0.5));
-  for (uint32_t s = 0; s < 2; ++s) EXPECT_TRUE(Matches(gpu.Read(t.get(), 1, s), All({half, half, half, 128}), 1)) << s;
 }
 
 // Odd sizes: every mip is made, and stays within what its parent holds.

@@ -48,11 +48,14 @@ struct Objects {
     Ref<IShaderResourceView> none;
     EXPECT_EQ(d.CreateShaderResourceView(picture.get(), &desc, &none), Status::InvalidArg);
   }
-  void SetTarget() {
+  void Read(ITexture* t, uint32_t subresource) {
+    EXPECT_EQ(d.ReadBack(t, subresource, bytes.data(), bytes.size()), Status::InvalidArg);
+  }
+  void SetTarget(uint32_t viewports = 1) {
     IRenderTargetView* target = rtv.get();
     const Viewport viewport{0, 0, 8, 8, 0, 1};
     c.OMSetRenderTargets(1, &target, nullptr);
-    c.RSSetViewports(1, &viewport);
+    c.RSSetViewports(viewports, &viewport);
   }
   void SetShaders() {
     c.VSSetShader(vs.get());
@@ -179,6 +182,33 @@ std::vector<MisuseCase> Cases() {
        false},
       {"DrawWithoutLayout", LayoutMismatch, [](O& o) { o.SetTarget(), o.SetShaders(), o.c.Draw(3, 0); }, false},
       {"DispatchWithoutShader", NothingBound, [](O& o) { o.c.Dispatch(1, 1, 1); }, false},
+      {"DrawWithoutViewport", NothingBound,
+       [](O& o) { o.SetTarget(0), o.SetShaders(), o.c.IASetInputLayout(o.layout.get()), o.c.Draw(3, 0); }, false},
+      {"IndirectOfNull", WrongBindFlag, [](O& o) { o.c.DrawInstancedIndirect(nullptr, 0); }, false},
+      {"IndirectWithoutFlag", WrongBindFlag, [](O& o) { o.c.DrawInstancedIndirect(o.plain.get(), 0); }, false},
+      {"IndirectBeyond", OutOfBounds, [](O& o) { o.c.DrawInstancedIndirect(o.small.get(), 20); }, false},
+      {"IndirectOffFour", OutOfBounds, [](O& o) { o.c.DrawInstancedIndirect(o.small.get(), 2); }, false},
+      {"MipsOfATwin", FormatMismatch,
+       [](O& o) {
+         Ref<IShaderResourceView> view;
+         const ViewDesc twin{.format = Format::RGBA8_UNorm_sRGB};
+         EXPECT_EQ(o.d.CreateShaderResourceView(o.picture.get(), &twin, &view), Status::Ok);
+         o.c.GenerateMips(view.get());
+       },
+       false},
+      {"ReadOfNull", InvalidDesc, [](O& o) { o.Read(nullptr, 0); }},
+      {"ReadOfSamples", FormatMismatch, [](O& o) { o.Read(o.samples.get(), 0); }, false},
+      {"ReadOfNoSubresource", SubresourceOutOfRange, [](O& o) { o.Read(o.picture.get(), 1); }},
+      {"ReadBeyondBuffer", OutOfBounds,
+       [](O& o) { EXPECT_EQ(o.d.ReadBack(o.plain.get(), 48, 32, o.bytes.data()), Status::InvalidArg); }},
+      {"EventsEndTwice", QueryOrder, [](O& o) { o.c.EndEvent(); }, false},
+      {"DataOfWrongSize", OutOfBounds,
+       [](O& o) {
+         uint32_t out = 0;
+         o.c.Begin(o.occlusion.get()), o.c.End(o.occlusion.get());
+         EXPECT_EQ(o.c.GetData(o.occlusion.get(), &out, sizeof out, true), Status::InvalidArg);
+       },
+       false},
       {"EndWithoutBegin", QueryOrder, [](O& o) { o.c.End(o.occlusion.get()); }},
       {"BeginOfEvent", QueryOrder, [](O& o) { o.c.Begin(o.event.get()); }},
       {"DataOfUnended", QueryOrder, [](O& o) { o.c.GetData(o.event.get(), nullptr, 0, true); }},
@@ -215,12 +245,16 @@ TEST_P(MisuseTest, HasItsCode) {
   const Ref<IDevice> device = Open(seer);
   ASSERT_TRUE(device) << sink.Dump();
   Objects objects(*device);
-  std::erase_if(sink.entries, [](const auto& e) { return e.severity == Severity::Info; });
+  const auto dropInfos = [&] {
+    std::erase_if(sink.entries, [](const auto& e) { return e.severity == Severity::Info; });
+  };
+  dropInfos();
   ASSERT_TRUE(sink.entries.empty()) << sink.Dump();
   misuse.call(objects);
+  dropInfos();
   ASSERT_EQ(sink.entries.size(), 1u) << sink.Dump();
   EXPECT_EQ(sink.entries[0].code, misuse.code) << sink.Dump();
-  EXPECT_EQ(sink.entries[0].severity, Severity::Error) << sink.Dump();
+  EXPECT_GE(sink.entries[0].severity, Severity::Warning) << sink.Dump();
   device->ImmediateContext()->ClearState();
 }
 

@@ -5,7 +5,8 @@
 //  - Constants never end a pass: Map(WriteDiscard) and UpdateConstants take a slice of a growing ring.
 //  - Binding a target unbinds its shader views, with a message. What is not bound reads 0.
 //  - Errors are a Status and a message to the device's sink. What returns nothing reports (Severity::Error unless said
-//    otherwise) and ignores the call; draws with an unusable state are reported, once a frame, and skipped.
+//    otherwise) and ignores the call; draws with an unusable state are reported, once a frame, and skipped:
+//    looked at in the order shader, layout and topology, targets, viewport.
 //  - Arrays of `count` entries may have null entries, which unbind; the array itself is null only where count is 0.
 //    An out parameter is never null. Objects belong to the device that made them; only rhi/validation.h looks
 //    (ForeignObject), and it alone checks bind flags of buffers that are bound (WrongBindFlag).
@@ -192,8 +193,8 @@ class IContext {
                                  uint32_t slicePitch) = 0;
   // Two buffers, or two textures of one format (or sRGB twins) and sample count (FormatMismatch), to Default or Staging
   // (ImmutableWrite, MapMode). CopyResource: everything, sizes and mips equal (FormatMismatch). CopySubresourceRegion: a
-  // box of the source (null: all) to x, y, z of the destination, in texels, whole 4x4 blocks of BC formats; buffers: bytes, in x
-  // and the box's left and right. Slices of arrays, faces of cubes and depth slices of volumes may be mixed. Beyond an
+  // box of the source (null: all) to x, y, z of the destination, in texels, whole 4x4 blocks of BC formats; buffers:
+  // bytes, in x and the box's left and right. Slices of arrays, faces of cubes and depth slices of volumes may be mixed. Beyond an
   // edge, or onto itself (one subresource of a texture, overlapping bytes of a buffer): OutOfBounds; no such
   // subresource: SubresourceOutOfRange. Ends a pass. Copy* / vkCmdCopyBuffer, vkCmdCopyImage /
   // glCopyNamedBufferSubData, glCopyImageSubData; staging textures are buffers there.
@@ -209,6 +210,7 @@ class IContext {
   // sRGB: the box filter where sizes are even, a linear filter at the texel's centre where they are odd. The texture
   // needs RenderTarget and ShaderResource, as in Direct3D 10 (WrongBindFlag), the format FormatSupport::MipAutogen
   // (CapMissing). Ends a pass. GenerateMips / vkCmdBlitImage / glBlitNamedFramebuffer, glGenerateTextureMipmap for 3D.
+  // The view's format is the texture's own (FormatMismatch).
   virtual void GenerateMips(IShaderResourceView*) = 0;
 
   // ---- Work: Draw* / vkCmdDraw* / glDraw*BaseVertexBaseInstance. Counts in vertices, indices, instances, groups; 0

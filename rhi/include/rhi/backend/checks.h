@@ -26,6 +26,9 @@ Status CheckSamplerDesc(const SamplerDesc&, const Caps&, const MessageLog&);
 Status CheckSwapChainDesc(const SwapChainDesc&, const Caps&, const MessageLog&);
 TextureDesc BackBufferDesc(uint32_t width, uint32_t height, Format);
 
+// What a shader's view of a texture shows: what is not a whole cube to be read is an array of faces.
+TextureDim ShownDim(const TextureDesc&, const ViewDesc&, bool written);
+
 uint32_t SliceCount(const TextureDesc&);  // array slices: 1 for a Tex3D
 uint32_t MipSize(uint32_t size, uint32_t mip);
 
