@@ -36,7 +36,8 @@ static_assert(kFormats.size() == size_t(Format::Count));
 
 FormatSupport When(bool condition, FormatSupport bits) { return condition ? bits : FormatSupport::None; }
 
-FormatSupport TextureSupport(VkFormatFeatureFlags f) {
+// Some drivers store sRGB; no view of ours does, because the others cannot.
+FormatSupport TextureSupport(VkFormatFeatureFlags f, bool sRGB) {
   const bool blit = (f & VK_FORMAT_FEATURE_BLIT_SRC_BIT) && (f & VK_FORMAT_FEATURE_BLIT_DST_BIT);
   const bool linear = f & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
   const bool color = f & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
@@ -46,7 +47,7 @@ FormatSupport TextureSupport(VkFormatFeatureFlags f) {
          When(f & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, FormatSupport::Blendable) |
          When(f & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
               FormatSupport::Texture2D | FormatSupport::DepthStencil) |
-         When(f & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, FormatSupport::UnorderedAccess) |
+         When((f & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) && !sRGB, FormatSupport::UnorderedAccess) |
          When(blit && linear && color, FormatSupport::MipAutogen);
 }
 
@@ -68,7 +69,7 @@ FormatSupport QueryFormatSupport(const InstanceTable& vki, VkPhysicalDevice phys
   vki.vkGetPhysicalDeviceFormatProperties(physical, ToVk(format), &p);
   FormatSupport support = FormatSupport::None;
   // RGB32_Float is a format of vertex elements only; a driver may well sample it, but then not every backend could.
-  if (format != Format::RGB32_Float) support = TextureSupport(p.optimalTilingFeatures);
+  if (format != Format::RGB32_Float) support = TextureSupport(p.optimalTilingFeatures, GetFormatInfo(format).sRGB);
   const bool vertex = p.bufferFeatures & VK_FORMAT_FEATURE_VERTEX_BUFFER_BIT;
   support = support | When(vertex, FormatSupport::Buffer | FormatSupport::VertexBuffer);
   if (format == Format::R16_UInt || format == Format::R32_UInt) support = support | FormatSupport::IndexBuffer;
