@@ -143,8 +143,10 @@ void AddFlags(CLI::App* c, CompareFlags* f) {
   c->add_option("--heat", f->heat, "PNG for the FLIP error of each pixel, black to light yellow");
   c->add_option("--heat-scale", f->heatScale, "Multiplies the errors of --heat")
       ->check(kFinite)->check(CLI::PositiveNumber)->capture_default_str();
-  c->add_option("--mask", f->mask, "Picture of the reference's fur opacity (alpha, else red); default: A's alpha, else all");
-  c->add_option("--band", f->band, "Picture that is above 1/255 where fur has no skin behind it; default: by A's alpha");
+  c->add_option("--mask", f->mask,
+                "Picture of the reference's fur opacity (alpha, else red); default: A's alpha, or all");
+  c->add_option("--band", f->band,
+                "Picture that is above 1/255 where fur has no skin behind it; default: by A's alpha");
   c->add_option("--ppd", f->ppd, "Pixels per degree of the visual field, for FLIP")
       ->check(kFinite)->check(CLI::Range(1.0, 1000.0))->capture_default_str();
   AddLimits(c, f);

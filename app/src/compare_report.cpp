@@ -37,8 +37,14 @@ nlohmann::ordered_json ComparisonJson(const fur::Comparison& c, const ComparedFi
   j["height"] = c.flipMap.height;
   j["clamped_and_encoded"] = {{"reference", !files.referenceEncoded}, {"test", !files.testEncoded}};
   j["pixels_per_degree"] = files.pixelsPerDegree;
-  j["flip"] = {{"mean", f.mean}, {"mask_mean", OrNull(f.maskMean)}, {"weighted_median", f.weightedMedian}, {"q1", f.q1},
-               {"q3", f.q3}, {"p99", f.p99}, {"min", f.min}, {"max", f.max}};
+  j["flip"] = {{"mean", f.mean},
+               {"mask_mean", OrNull(f.maskMean)},
+               {"weighted_median", f.weightedMedian},
+               {"q1", f.q1},
+               {"q3", f.q3},
+               {"p99", f.p99},
+               {"min", f.min},
+               {"max", f.max}};
   j["mask"] = {{"rmse", OrNull(c.maskRmse)}, {"relmse", OrNull(c.maskRelMse)}, {"pixels", c.maskPixels}};
   j["mask_source"] = MaskName(c.maskSource);
   j["band"] = {{"opacity_rmse", OrNull(c.bandOpacityRmse)}, {"pixels", c.bandPixels}};
@@ -65,11 +71,13 @@ std::string ComparisonText(const fur::Comparison& c, const ComparedFiles& files)
   text += fmt::format("  equal {:.4f} % of {} pixels, {} not finite\n", 100 * c.equalShare, c.pixels, c.nonFinite);
   text += fmt::format("  {}; {}, opacity RMSE {}\n", Region("mask", c.maskSource, c.maskPixels),
                       Region("band", c.bandSource, c.bandPixels), Number(c.bandOpacityRmse));
-  if (!files.referenceEncoded || !files.testEncoded)
-    text += fmt::format("  {} linear: clamped to 0..1 and sRGB-encoded for FLIP, PSNR, SSIM and the largest difference\n",
-                        files.referenceEncoded ? "the test picture is"
+  if (!files.referenceEncoded || !files.testEncoded) {
+    const char* which = files.referenceEncoded ? "the test picture is"
                         : files.testEncoded    ? "the reference is"
-                                               : "both are");
+                                               : "both are";
+    text += std::string("  ") + which +
+            " linear: clamped to 0..1 and sRGB-encoded for FLIP, PSNR, SSIM and the largest" + " difference\n";
+  }
   return text;
 }
 

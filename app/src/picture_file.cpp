@@ -17,8 +17,10 @@ bool IsExrName(const std::filesystem::path& file) {
 fur::Result<fur::Done> CheckPictureFile(const std::filesystem::path& file, const fur::RenderSettings& settings) {
   if (!IsExrName(file)) return fur::Done{};
   if (settings.technique == fur::Technique::Shells && settings.target != fur::TargetFormat::Unorm8) return fur::Done{};
-  return fur::Error{fur::ErrorCode::Usage, "an EXR holds the frame of floats with its opacity, which only --technique shells has; "
-                                           "name a .png instead of " + file.string()};
+  return fur::Error{fur::ErrorCode::Usage,
+                    "an EXR holds the frame of floats with its opacity, which only --technique shells has; name a .png "
+                    "instead of " +
+                        file.string()};
 }
 
 fur::Result<fur::Done> WritePicture(const std::filesystem::path& file, const RenderOutcome& outcome,

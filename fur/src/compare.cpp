@@ -16,8 +16,8 @@ namespace fur {
 namespace {
 
 constexpr uint64_t kMaxPictureFile = uint64_t{1} << 30;
-constexpr uint32_t kMaskGrowth = 4;      // pixels
-constexpr double kRelMseFloor = 0.01;    // in the denominator of relMse: black must not divide by 0
+constexpr uint32_t kMaskGrowth = 4;    // pixels
+constexpr double kRelMseFloor = 0.01;  // in the denominator of relMse: black must not divide by 0
 
 bool IsFinite(const glm::vec4& p) { return std::isfinite(p.r) && std::isfinite(p.g) && std::isfinite(p.b); }
 

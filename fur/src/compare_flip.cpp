@@ -1,5 +1,5 @@
-// LDR-FLIP. Section and equation numbers are those of Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astrom, Fairchild,
-// "FLIP: A Difference Evaluator for Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. (HPG) 3(2), 2020.
+// LDR-FLIP. Section numbers are those of Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astrom, Fairchild, "FLIP: A
+// Difference Evaluator for Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. (HPG) 3(2), 2020.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -70,7 +70,8 @@ float StretchColorError(float error, float largest) {
 struct Sensitivity {
   double a1, b1, a2, b2;
 };
-constexpr Sensitivity kAchromatic{1, 0.0047, 0, 1e-5}, kRedGreen{1, 0.0053, 0, 1e-5}, kBlueYellow{34.1, 0.04, 13.5, 0.025};
+constexpr Sensitivity kAchromatic{1, 0.0047, 0, 1e-5}, kRedGreen{1, 0.0053, 0, 1e-5};
+constexpr Sensitivity kBlueYellow{34.1, 0.04, 13.5, 0.025};
 constexpr double kWidestB = 0.04;
 
 // exp(-pi^2 x^2/b), of sum 1; `sum` is what it was.
@@ -114,7 +115,8 @@ std::array<Plane, 3> OpponentPlanes(const Rgb& in, const ColorSpace& space) {
 }
 
 // What the eye makes of the colours at this distance, in Lab (section 4.1).
-std::vector<glm::vec3> SeenColors(const std::array<Plane, 3>& opponent, const ColorSpace& space, double pixelsPerDegree) {
+std::vector<glm::vec3> SeenColors(const std::array<Plane, 3>& opponent, const ColorSpace& space,
+                                  double pixelsPerDegree) {
   const Plane y = FilterBySensitivity(opponent[0], kAchromatic, pixelsPerDegree);
   const Plane cx = FilterBySensitivity(opponent[1], kRedGreen, pixelsPerDegree);
   const Plane cz = FilterBySensitivity(opponent[2], kBlueYellow, pixelsPerDegree);
@@ -136,7 +138,7 @@ Kernel Balance(const std::vector<double>& weights) {
 }
 
 // The strength of edges and of points: the length of the gradient by first and by second derivatives of a Gaussian of
-// sigma w ppd / 2, w = 0.082 degrees (section 4.2, equation 5).
+// sigma w ppd / 2, w = 0.082 degrees (section 4.2).
 struct Features {
   Plane edges, points;
 };
@@ -172,14 +174,15 @@ Plane FlipMap(const Rgb& reference, const Rgb& test, double pixelsPerDegree) {
   const ColorSpace space;
   const float largest = std::pow(HyAb(ToHuntLab({0, 1, 0}, space), ToHuntLab({0, 0, 1}, space)), kQc);
   const std::array<Plane, 3> a = OpponentPlanes(reference, space), b = OpponentPlanes(test, space);
-  const std::vector<glm::vec3> labA = SeenColors(a, space, pixelsPerDegree), labB = SeenColors(b, space, pixelsPerDegree);
+  const std::vector<glm::vec3> labA = SeenColors(a, space, pixelsPerDegree);
+  const std::vector<glm::vec3> labB = SeenColors(b, space, pixelsPerDegree);
   const Features fa = FindFeatures(a[0], pixelsPerDegree), fb = FindFeatures(b[0], pixelsPerDegree);
   Plane out{reference.width, reference.height, std::vector<float>(labA.size())};
   for (size_t i = 0; i < labA.size(); ++i) {
     const float color = StretchColorError(std::pow(HyAb(labA[i], labB[i]), kQc), largest);
     const float edges = std::abs(fa.edges.values[i] - fb.edges.values[i]);
     const float points = std::abs(fa.points.values[i] - fb.points.values[i]);
-    // (max / sqrt 2)^q_f, q_f = 0.5; then equation 8: differing features make a difference in colour weigh more.
+    // (max / sqrt 2)^q_f, q_f = 0.5; then section 4.3: differing features make a difference in colour weigh more.
     const float features = std::sqrt(std::max(edges, points) * float(1 / std::numbers::sqrt2));
     out.values[i] = std::clamp(std::pow(color, 1 - std::min(features, 1.0f)), 0.0f, 1.0f);
   }

@@ -1,5 +1,5 @@
-// Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE Trans.
-// Image Processing 13(4), 2004, section III.
+// Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE
+// Trans. Image Processing 13(4), 2004, section III.
 #include <algorithm>
 #include <cmath>
 

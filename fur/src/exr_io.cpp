@@ -120,7 +120,8 @@ Result<ExrImage> Decode(std::span<const uint8_t> bytes, EXRHeader* h, const std:
   for (int c = 0; c < h->num_channels; ++c) h->requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
   EXRImage planes;
   InitEXRImage(&planes);
-  planes.num_channels = h->num_channels;  // the library frees its planes when it fails, but only as many as it finds here
+  // When the library fails it frees its planes, but only as many as it finds here.
+  planes.num_channels = h->num_channels;
   const char* message = nullptr;
   if (LoadEXRImageFromMemory(&planes, h, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS)
     return Malformed(where, "is a broken EXR file (" + TakeMessage(message) + ")");
@@ -198,7 +199,8 @@ Result<Done> WriteExr(const std::filesystem::path& file, const FloatImage& image
   const char* message = nullptr;
   const size_t size = SaveEXRImageToMemory(&exr, &header, &bytes, &message);
   if (size == 0)
-    return Error{ErrorCode::OutputFailed, file.string() + ": the EXR could not be encoded (" + TakeMessage(message) + ")"};
+    return Error{ErrorCode::OutputFailed,
+                 file.string() + ": the EXR could not be encoded (" + TakeMessage(message) + ")"};
   const std::unique_ptr<unsigned char, decltype(&std::free)> owner(bytes, &std::free);
   return WriteFile(file, {bytes, size});
 }

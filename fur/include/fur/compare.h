@@ -39,22 +39,22 @@ struct CompareSettings {
 struct Comparison {
   struct Flip {
     double mean = 0;
-    std::optional<double> maskMean;          // none: the mask is empty
+    std::optional<double> maskMean;             // none: the mask is empty
     double weightedMedian = 0, q1 = 0, q3 = 0;  // each value weighs as much as itself: WeightedPercentile
-    double p99 = 0, min = 0, max = 0;        // p99: Percentile
+    double p99 = 0, min = 0, max = 0;           // p99: Percentile
   } flip;
-  // Linear light: all channels of the mask's pixels. relMse: mean of (b - a)^2 / (a^2 + 0.01) (Rousselle, Knaus, Zwicker,
-  // "Adaptive Sampling and Reconstruction using Greedy Error Minimization", TOG 30(6), 2011, section 6).
+  // Linear light: all channels of the mask's pixels. relMse: mean of (b - a)^2 / (a^2 + 0.01) (Rousselle, Knaus,
+  // Zwicker, "Adaptive Sampling and Reconstruction using Greedy Error Minimization", TOG 30(6), 2011).
   std::optional<double> maskRmse, maskRelMse;
-  std::optional<double> bandOpacityRmse;     // none: a picture without alpha, no band, or an empty one
-  double rmse = 0;        // linear light, all channels and pixels
-  double psnr = 0;        // of sRGB values, peak 255 (1 here); infinite for equal pictures
-  double ssim = 1;        // of the luma of sRGB values
-  double largest = 0;     // difference of a channel of sRGB values, 0..1
+  std::optional<double> bandOpacityRmse;  // none: a picture without alpha, no band, or an empty one
+  double rmse = 0;                        // linear light, all channels and pixels
+  double psnr = 0;                        // of sRGB values, peak 255 (1 here); infinite for equal pictures
+  double ssim = 1;                        // of the luma of sRGB values
+  double largest = 0;                     // difference of a channel of sRGB values, 0..1
   double equalShare = 1;  // share of pixels that are bit-equal as stored, alpha included where both have one
   uint64_t pixels = 0, maskPixels = 0, bandPixels = 0, nonFinite = 0;
   RegionSource maskSource = RegionSource::Whole, bandSource = RegionSource::None;
-  Plane flipMap;          // 0..1
+  Plane flipMap;  // 0..1
 };
 
 // Usage for sizes that differ, in words.

@@ -27,8 +27,8 @@ Result<ExrImage> ReadExrFromMemory(std::span<const uint8_t> bytes, const std::st
 // Whether the bytes start as an EXR file does.
 bool IsExr(std::span<const uint8_t> bytes);
 
-// Writes R, G, B, A as floats, ZIP-compressed, bit for bit. The file appears whole or not at all. Errors: Usage (sizes),
-// OutputFailed.
+// Writes R, G, B, A as floats, ZIP-compressed, bit for bit. The file appears whole or not at all. Errors: Usage
+// (sizes), OutputFailed.
 Result<Done> WriteExr(const std::filesystem::path& file, const FloatImage& image);
 
 }  // namespace fur
