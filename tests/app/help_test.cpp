@@ -24,8 +24,9 @@ TEST(Help, RenderNamesEveryFlag) {
 TEST(Help, CompareNamesEveryFlag) {
   const Outcome o = RunFur({"compare", "--help"});
   ExpectSuccess(o);
-  for (const char* flag : {"--json", "--heat", "--heat-scale", "--mask", "--band", "--ppd", "--max-flip", "--max-mask-flip",
-                           "--max-rmse", "--max-difference", "--min-ssim", "--min-psnr", "--max-differing-share"})
+  for (const char* flag : {"--json", "--heat", "--heat-scale", "--mask", "--band", "--ppd", "--max-flip",
+                           "--max-mask-flip", "--max-rmse", "--max-difference", "--min-ssim", "--min-psnr",
+                           "--max-differing-share"})
     EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
 }
 
