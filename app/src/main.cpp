@@ -29,9 +29,10 @@ int Main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 success, 1 internal error, 2 wrong flags, 3 missing input, 4 malformed input,\n"
-      "5 output cannot be written, 6 no usable driver, 7 rendering failed.");
+      "5 output cannot be written, 6 no usable driver, 7 rendering failed, 8 a limit of compare is exceeded.");
   Command run;
   AddRenderCommand(app, &run);
+  AddCompareCommand(app, &run);
   AddInfoCommand(app, &run);
   try {
     app.parse(argc, argv);
@@ -48,7 +49,7 @@ int main(int argc, char** argv) {
   try {
     return app::Main(argc, argv);
   } catch (const std::bad_alloc&) {
-    return app::Fail({fur::ErrorCode::Internal, "out of memory; try a smaller --size or --count"});
+    return app::Fail({fur::ErrorCode::Internal, "out of memory; try smaller pictures or a smaller --count"});
   } catch (const std::exception& e) {
     return app::Fail({fur::ErrorCode::Internal, e.what()});
   }

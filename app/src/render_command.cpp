@@ -1,4 +1,4 @@
-// fur render: a model, a camera and a technique become a PNG on one backend, or on each with their difference.
+// fur render: a model, a camera and a technique become a picture on one backend, or on each with their difference.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -7,10 +7,11 @@
 #include <set>
 
 #include "commands.h"
+#include "flag_checks.h"
 #include "fur/builtin.h"
 #include "fur/file.h"
 #include "fur/gltf.h"
-#include "fur/image_io.h"
+#include "picture_file.h"
 #include "preset_flags.h"
 #include "render_job.h"
 #include "stats.h"
@@ -27,14 +28,6 @@ constexpr uint32_t kMaxSide = 16384;
 constexpr uint32_t kMaxShells = 512;
 constexpr uint32_t kMaxAnimals = 10000;
 const glm::dvec3 kStudioGrey{0.30, 0.32, 0.34};  // linear; an outline of fur shows on it, light and dark
-
-// CLI11's ranges let NaN through.
-const CLI::Validator kFinite(
-    [](std::string& text) {
-      char* end = nullptr;
-      return std::isfinite(std::strtod(text.c_str(), &end)) && end != text.c_str() ? std::string() : "must be a finite number, not " + text;
-    },
-    "");
 
 struct RenderFlags {
   std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "shells", look = "correct", semantics,
@@ -214,7 +207,7 @@ nlohmann::ordered_json AllStats(const std::vector<RenderOutcome>& outcomes, cons
 Result<Done> WriteOutputs(const RenderFlags& f, const RenderJob& job, const std::vector<RenderOutcome>& outcomes) {
   for (const RenderOutcome& out : outcomes) {
     const std::filesystem::path file = PictureFile(f, out.backend);
-    Result<Done> written = fur::WritePng(file, out.image.width, out.image.height, out.image.pixels);
+    Result<Done> written = WritePicture(file, out, job.settings);
     if (!written) return written.error();
     fmt::print("{}: {} ({})\n  {}\n", out.backend, file.string(), out.caps.driver.data(), Throughput(out));
   }
@@ -245,6 +238,7 @@ Result<RenderJob> PrepareJob(const RenderFlags& f, const fur::Model& model) {
   job.repeat = f.repeat;
   job.validate = f.validate;
   job.adapter = f.adapter;
+  job.floatFrame = IsExrName(f.output);
   return job;
 }
 
@@ -253,7 +247,9 @@ Result<Done> Render(const RenderFlags& f) {
     return Error{ErrorCode::Usage, "-o and --stats name the same file: " + f.output};
   for (const std::filesystem::path& file : OutputFiles(f))
     if (Result<Done> ok = fur::CheckWritable(file); !ok) return ok.error();
-  if (Result<fur::RenderSettings> settings = MakeSettings(f); !settings) return settings.error();
+  Result<fur::RenderSettings> settings = MakeSettings(f);
+  if (!settings) return settings.error();
+  if (Result<Done> ok = CheckPictureFile(f.output, *settings); !ok) return ok.error();
   Result<fur::Model> model = LoadModel(f);
   if (!model) return model.error();
   PrintMessages(model->warnings);
@@ -301,7 +297,7 @@ void AddShellFlags(CLI::App* c, RenderFlags* f) {
 
 void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("MODEL", f->model, "A .gltf or .glb file; without it, the built-in animal");
-  c->add_option("-o,--output", f->output, "PNG to write; with --backend both, FILE.vulkan.png and FILE.gl.png")->capture_default_str();
+  c->add_option("-o,--output", f->output, "PNG to write, or EXR: the frame in linear floats, alpha its opacity; with --backend both, FILE.vulkan.png and FILE.gl.png")->capture_default_str();
   c->add_option("--backend", f->backend, "vulkan, gl, or both (renders with each and prints the difference)")
       ->check(CLI::IsMember({"vulkan", "gl", "both"}))->capture_default_str();
   c->add_option("--adapter", f->adapter, "Part of an adapter's name (fur info lists them); default: the first");
@@ -337,7 +333,7 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
 
 void AddRenderCommand(CLI::App& app, Command* run) {
   auto flags = std::make_shared<RenderFlags>();
-  CLI::App* c = app.add_subcommand("render", "Render a model, or the built-in animal, to a PNG");
+  CLI::App* c = app.add_subcommand("render", "Render a model, or the built-in animal, to a PNG or an EXR");
   AddFlags(c, flags.get());
   c->callback([c, flags, run] {
     for (const CLI::Option* option : c->get_options())

@@ -59,6 +59,11 @@ fur::Result<RenderOutcome> RunOnDevice(rhi::IDevice& device, const fur::Model& m
   fur::Result<fur::Image> image = (*renderer)->ReadImage();
   if (!image) return image.error();
   out.image = std::move(*image);
+  if (job.floatFrame) {
+    fur::Result<fur::FloatImage> frame = (*renderer)->ReadPixels();
+    if (!frame) return frame.error();
+    out.frame = std::move(*frame);
+  }
   if (fur::Result<fur::Done> timed = TimeFrames(**renderer, job, &out); !timed) return timed.error();
   fur::Result<fur::FrameCounts> counts = (*renderer)->Count(job.camera, job.placements);
   if (!counts) return counts.error();

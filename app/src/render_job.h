@@ -16,12 +16,14 @@ struct RenderJob {
   uint32_t repeat = 1;     // timed frames after the first
   bool validate = false;   // API and synchronization validation
   std::string adapter;
+  bool floatFrame = false; // read the frame as floats too
 };
 
 struct RenderOutcome {
   std::string backend;
   rhi::Caps caps;
   fur::Image image;               // the first frame, at the job's camera
+  fur::FloatImage frame;          // the same before it is brought to 8 bits; empty without floatFrame
   double firstFrameMs = 0;        // with the drivers' shader compilation
   std::vector<double> frameMs;    // docs/accuracy.md: first call to finished GPU, the camera turning 0.5 degrees a frame
   fur::FrameCounts counts;

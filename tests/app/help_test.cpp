@@ -7,7 +7,7 @@ namespace {
 TEST(Help, NamesTheCommands) {
   const Outcome o = RunFur({"--help"});
   ExpectSuccess(o);
-  for (const char* word : {"render", "info", "--version", "Exit codes"})
+  for (const char* word : {"render", "compare", "info", "--version", "Exit codes"})
     EXPECT_NE(o.out.find(word), std::string::npos) << word << " is not in:\n" << o.out;
 }
 
@@ -18,6 +18,15 @@ TEST(Help, RenderNamesEveryFlag) {
        {"-o",          "--output", "--backend",  "--size",    "--samples",   "--technique", "--look",
         "--semantics", "--shells", "--eye",      "--target",  "--fov",       "--count",     "--repeat",
         "--stats",     "--fur",    "--validate", "--preset", "--coat", "--dead-zone", "--no-fins", "--no-shells", "MODEL"})
+    EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
+}
+
+TEST(Help, CompareNamesEveryFlag) {
+  const Outcome o = RunFur({"compare", "--help"});
+  ExpectSuccess(o);
+  for (const char* flag : {"--json", "--heat", "--heat-scale", "--mask", "--band", "--ppd", "--max-flip",
+                           "--max-mask-flip", "--max-rmse", "--max-difference", "--min-ssim", "--min-psnr",
+                           "--max-differing-share"})
     EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
 }
 

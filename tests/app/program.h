@@ -38,7 +38,9 @@ class Folder {
   std::filesystem::path path_;
 };
 
-enum ExitCode { kSuccess, kInternal, kUsage, kInputMissing, kInputMalformed, kOutputFailed, kNoDevice, kRenderFailed };
+enum ExitCode {
+  kSuccess, kInternal, kUsage, kInputMissing, kInputMalformed, kOutputFailed, kNoDevice, kRenderFailed, kComparisonFailed
+};
 
 // Exactly one line on stderr, `fur: error: ...`, which names each of the words; no signal; nothing on stdout.
 void ExpectFailure(const Outcome&, ExitCode, const std::vector<std::string>& words = {});

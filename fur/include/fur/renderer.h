@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "fur/float_image.h"
 #include "fur/model.h"
 #include "fur/scene.h"
 #include "rhi/rhi.h"
@@ -93,12 +94,6 @@ struct FrameCounts {
   uint64_t draws = 0, triangles = 0, edges = 0, dispatches = 0;  // submitted; edges: candidates for fins
   uint64_t baseFragments = 0, finFragments = 0, shellFragments = 0;
   uint64_t skippedAnimals = 0, skippedEdges = 0, skippedShells = 0;
-};
-
-// Row 0 on top, tightly packed.
-struct FloatImage {
-  uint32_t width = 0, height = 0;
-  std::vector<glm::vec4> pixels;
 };
 
 class Renderer {

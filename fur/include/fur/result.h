@@ -15,7 +15,8 @@ enum class ErrorCode {
   InputMalformed = 4, // a file that is not what it should be
   OutputFailed = 5,   // a file that cannot be written
   NoDevice = 6,       // no usable driver, or one without a needed feature
-  RenderFailed = 7    // the driver failed, or non-finite pixels
+  RenderFailed = 7,   // the driver failed, or non-finite pixels
+  ComparisonFailed = 8  // two pictures are further apart than a limit allows
 };
 
 struct Error {

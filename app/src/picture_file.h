@@ -1,0 +1,20 @@
+// The picture that fur render leaves: a PNG, or the frame itself as an EXR.
+#pragma once
+
+#include <filesystem>
+
+#include "render_job.h"
+
+namespace app {
+
+// Whether the name ends in .exr, in any case.
+bool IsExrName(const std::filesystem::path& file);
+
+// Usage, in words, where these settings have no frame of floats with opacity for an EXR.
+fur::Result<fur::Done> CheckPictureFile(const std::filesystem::path& file, const fur::RenderSettings& settings);
+
+// The EXR is in linear light, also for look seed; alpha is the opacity of skin and fur over the background.
+fur::Result<fur::Done> WritePicture(const std::filesystem::path& file, const RenderOutcome& outcome,
+                                    const fur::RenderSettings& settings);
+
+}  // namespace app
