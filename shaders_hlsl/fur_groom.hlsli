@@ -3,7 +3,7 @@
 #define FUR_GROOM_HLSLI
 #include "fur_volume.hlsli"
 
-static const float kClumpsAcross = 8.0;   // of a tile
+static const float kClumpsAcross = 4.0;   // of a tile
 static const float kMostDrawn = 0.75;     // clumping 1: a clump's tip is a quarter as wide as its foot
 static const float kTileOverLength = 4.0; // fur/coat.h
 
