@@ -50,7 +50,8 @@ Result<Json> Value(const FurKey& key, const std::string& text) {
   if (!v) return v.error();
   for (int i = 0; i < 3; ++i)
     if ((*v)[i] < key.min || (*v)[i] > key.max)
-      return Error{ErrorCode::Usage, fmt::format("{} takes numbers of {}..{}, not '{}'", key.flag, key.min, key.max, text)};
+      return Error{ErrorCode::Usage,
+                   fmt::format("{} takes numbers of {}..{}, not '{}'", key.flag, key.min, key.max, text)};
   return Json::array({v->x, v->y, v->z});
 }
 
@@ -67,7 +68,8 @@ const CLI::Validator kFinite(
 Result<glm::dvec3> ParseVector(const std::string& text, const char* flag) {
   glm::dvec3 v(0);
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &v.x, &v.y, &v.z, &rest) == 3 && std::isfinite(v.x + v.y + v.z)) return v;
+  const int read = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &v.x, &v.y, &v.z, &rest);
+  if (read == 3 && std::isfinite(v.x + v.y + v.z)) return v;
   return Error{ErrorCode::Usage, fmt::format("{} takes three finite numbers X,Y,Z, not '{}'", flag, text)};
 }
 

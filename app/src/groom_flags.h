@@ -15,7 +15,7 @@ extern const CLI::Validator kFinite;
 
 fur::Result<glm::dvec3> ParseVector(const std::string& text, const char* flag);
 
-// One flag for each FurParams key, but --shells, which is not the coats' alone. What is given lands in `values`, by key.
+// One flag for each FurParams key, but --shells, which is not the coats' alone. What is given lands in `values` by key.
 void AddGroomFlags(CLI::App*, std::map<std::string, std::string>* values);
 
 // The given flags as the JSON that the loader applies last; empty for none. Usage for what is not of the key's type.
