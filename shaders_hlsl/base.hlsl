@@ -1,5 +1,5 @@
 // The solid pass: skin and bald parts, Blinn-Phong with a normal map and a specular map.
-// Variant LOOK_SEED: the published demo's lighting, value for value.
+// Variants: LOOK_SEED: the published demo's lighting, value for value; WET: the skin under wet fur is dark too.
 #include "fur_constants.h"
 #include "base_varying.hlsli"
 #include "math.hlsli"
@@ -37,6 +37,9 @@ float3 ShadingNormal(BaseVarying v) {
 
 float4 PSMain(BaseVarying v) : SV_Target {
   float3 albedo = baseColorMap.Sample(surfaceSampler, v.uv).rgb * baseColor.rgb;
+#ifdef WET
+  albedo = pow(clamp(albedo, 1e-6, 1.0), groom.w);
+#endif
   float3 gloss = specularMap.Sample(surfaceSampler, v.uv).rgb * specular.rgb;
   float3 n = ShadingNormal(v);
   float3 toLight = -lightDirection.xyz;

@@ -17,7 +17,7 @@ void GSMain(lineadj FurVertex v[4], inout TriangleStream<FurVarying> fins) {
 }
 
 float4 PSMain(FurVarying v) : SV_Target {
-  float4 fur = ReadFur(v.uv.zw, v.fur.x);
-  float alpha = fur.a * v.fur.z * InsideFur(v);
-  return float4(FurColor(v, fur.rgb) * alpha, alpha);
+  Fur fur = ReadFur(v.uv.zw, v.fur.x);
+  float alpha = FinAlpha(fur) * v.fur.z * InsideFur(v);
+  return float4(FurColor(v, fur) * alpha, alpha);
 }

@@ -33,6 +33,9 @@ FUR_CBUFFER(MaterialConstants, b1) {
   FUR_FLOAT4 furSemantics;  // x: least cosine of the volume law, y: exponent N0 / N of the opacity law, z: length/N
   FUR_FLOAT4 fin;           // x: threshold of |e.N| below which an edge grows a fin, y: opacity of a whole fin,
                             // z: dead zone of |e.(mean vertex normal)| in which an edge grows one (presets)
+  FUR_FLOAT4 groom;         // x: density, y: clumping, z: how much of the base texture, w: exponent of wet colour
+  FUR_FLOAT4 rootColor;     // rgb
+  FUR_FLOAT4 tipColor;      // rgb
 };
 
 FUR_CBUFFER(ObjectConstants, b2) {
@@ -40,6 +43,9 @@ FUR_CBUFFER(ObjectConstants, b2) {
   FUR_MATRIX objectToEye;     // world axes, origin at the eye: keeps precision far from the world's origin
   FUR_MATRIX normalToWorld;   // inverse transpose of the upper 3x3
   FUR_FLOAT4 comb;            // xyz: sideways offset of the tip for fur of length 1, object axes; w: bend exponent, >= 1
+  FUR_FLOAT4 gravity;         // xyz: likewise; variant SWAY (fur/groom.h), from here on
+  FUR_FLOAT4 wind;            // xyz: likewise, at its strongest
+  FUR_FLOAT4 windWave;        // xyz: waves for one unit of length, w: waves that went by
 };
 
 FUR_CBUFFER(DrawConstants, b3) {

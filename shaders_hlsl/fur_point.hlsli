@@ -2,6 +2,7 @@
 #ifndef FUR_POINT_HLSLI
 #define FUR_POINT_HLSLI
 #include "fur_constants.h"
+#include "fur_sway.hlsli"
 #include "math.hlsli"
 
 struct FurVertex {  // fur::FurVertex
@@ -30,13 +31,14 @@ FurVarying PointAt(FurVertex v, float height, float opacity) {
   float furLength = v.position.w * furShape.x;
   // Not 0: pow(0, 0) is not 1 everywhere.
   float h = max(height, 1e-6);
-  float3 p = v.position.xyz + (v.direction.xyz * (height * furLength) + comb.xyz * (pow(h, comb.w) * furLength));
+  float3 tip = TipOffset(v.position.xyz, v.direction.xyz);
+  float3 p = v.position.xyz + (v.direction.xyz * (height * furLength) + tip * (pow(h, comb.w) * furLength));
   FurVarying o;
   o.position = TransformPoint(objectToClip, p);
   o.uv = float4(v.direction.w, v.normal.w, v.furUv.xy);
   o.fur = float3(height, v.position.w, opacity);
   o.normal = TransformVector(normalToWorld, v.normal.xyz);
-  o.direction = TransformVector(objectToEye, v.direction.xyz + comb.xyz * (comb.w * pow(h, comb.w - 1.0)));
+  o.direction = TransformVector(objectToEye, v.direction.xyz + tip * (comb.w * pow(h, comb.w - 1.0)));
   o.tangent = float4(TransformVector(objectToEye, v.tangent.xyz), v.tangent.w);
   o.fromEye = TransformPoint(objectToEye, p).xyz;
   return o;

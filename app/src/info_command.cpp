@@ -2,6 +2,7 @@
 
 #include "backends.h"
 #include "commands.h"
+#include "fur/params.h"
 
 namespace app {
 namespace {
@@ -52,11 +53,18 @@ int PrintInfo() {
   return Fail({fur::ErrorCode::NoDevice, "neither a Vulkan nor an OpenGL driver was found; install mesa-vulkan-drivers and libgl1-mesa-dri"});
 }
 
+int PrintSchema() {
+  fmt::print("{}", fur::GroomSchema());
+  return 0;
+}
+
 }  // namespace
 
 void AddInfoCommand(CLI::App& app, Command* run) {
   CLI::App* info = app.add_subcommand("info", "List adapters, drivers and what they can do");
-  info->callback([run] { *run = PrintInfo; });
+  auto schema = std::make_shared<bool>(false);
+  info->add_flag("--groom-schema", *schema, "Print the JSON schema of fur files (render --groom) instead");
+  info->callback([run, schema] { *run = *schema ? PrintSchema : PrintInfo; });
 }
 
 }  // namespace app

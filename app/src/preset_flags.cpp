@@ -30,11 +30,21 @@ const Owned kOwned[] = {
     {"--no-sort", {}},
 };
 
+// What technique shells alone makes of a coat.
+const char* const kGroom[] = {"--density",        "--thickness",   "--gravity",         "--root-color",
+                              "--tip-color",      "--wetness",     "--color-from-base", "--clumping",
+                              "--wind",           "--wind-strength", "--wind-frequency", "--wind-length",
+                              "--inertia-stiffness", "--inertia-damping", "--time"};
+
 }  // namespace
 
 fur::Result<fur::Done> SetPreset(const std::string& preset, const std::string& coat, const std::set<std::string>& given,
                                  fur::RenderSettings* s) {
   const auto has = [&](const char* flag) { return given.contains(flag); };
+  for (const char* flag : kGroom)
+    if (has(flag) && (!preset.empty() || s->technique == fur::Technique::Seed))
+      return Error{ErrorCode::Usage, fmt::format("{} does nothing in {}", flag,
+                                                 preset.empty() ? "--technique seed" : "--preset " + preset)};
   if (preset.empty()) {
     for (const char* flag : {"--coat", "--dead-zone"})
       if (has(flag)) return Error{ErrorCode::Usage, fmt::format("{} belongs to a --preset that has it", flag)};

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -11,6 +12,8 @@
 #include "fur/builtin.h"
 #include "fur/file.h"
 #include "fur/gltf.h"
+#include "fur/image_io.h"
+#include "groom_flags.h"
 #include "picture_file.h"
 #include "preset_flags.h"
 #include "render_job.h"
@@ -31,21 +34,15 @@ const glm::dvec3 kStudioGrey{0.30, 0.32, 0.34};  // linear; an outline of fur sh
 
 struct RenderFlags {
   std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "shells", look = "correct", semantics,
-              preset, coat, stats, shellMode = "instanced", finMode = "auto", comb, eye, target, adapter, furFile, furMaterial,
+              preset, coat, stats, shellMode = "instanced", finMode = "auto", eye, target, adapter, furFile, furMaterial,
               background;
+  std::map<std::string, std::string> fur;  // FurParams keys that flags set, as they were spelled
   uint32_t samples = 1, shells = 0, shellsAtOnce = 1, count = 1, repeat = 1;
-  double fov = 0, zNear = 0, zFar = 0, furLength = 0, uvScale = 0;
-  double finThreshold = 0.25, finOpacity = 0.9, deadZone = 0.25, combStrength = 1, bend = 2, spacing = 0;
+  double fov = 0, zNear = 0, zFar = 0, time = 0;
+  double finThreshold = 0.25, finOpacity = 0.9, deadZone = 0.25, spacing = 0;
   bool noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
   std::set<std::string> given;  // the flags on the command line
 };
-
-Result<glm::dvec3> ParseVector(const std::string& text, const char* flag) {
-  glm::dvec3 v(0);
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &v.x, &v.y, &v.z, &rest) == 3 && std::isfinite(v.x + v.y + v.z)) return v;
-  return Error{ErrorCode::Usage, fmt::format("{} takes three finite numbers X,Y,Z, not '{}'", flag, text)};
-}
 
 Result<Done> ParseSize(const std::string& text, fur::RenderSettings* s) {
   uint32_t w = 0, h = 0;
@@ -61,7 +58,7 @@ Result<Done> ParseSize(const std::string& text, fur::RenderSettings* s) {
 }
 
 // What belongs to technique shells alone, or to a preset too.
-Result<Done> SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
+void SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
   s->shellMode = Choose<fur::ShellMode>(f.shellMode, {{"instanced", fur::ShellMode::Instanced},
                                                       {"draws", fur::ShellMode::Draws},
                                                       {"amplified", fur::ShellMode::Amplified}});
@@ -75,15 +72,8 @@ Result<Done> SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
   s->backFaces = !f.noBackFaces;
   s->sortAnimals = !f.noSort;
   s->finDeadZone = f.deadZone;
-  s->bend = f.bend;
   s->spacing = f.spacing;
-  if (f.comb.empty()) return Done{};
-  Result<glm::dvec3> comb = ParseVector(f.comb, "--comb");
-  if (!comb) return comb.error();
-  const double length = glm::length(*comb);
-  if (!(length > 0)) return Error{ErrorCode::Usage, "--comb needs a direction other than 0,0,0"};
-  s->comb = *comb / length * f.combStrength;
-  return Done{};
+  s->time = f.time;
 }
 
 Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
@@ -100,7 +90,7 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   s.shells = f.shells;
   s.drawFins = !f.noFins;
   s.drawShells = !f.noShells;
-  if (Result<Done> shells = SetShellOptions(f, &s); !shells) return shells.error();
+  SetShellOptions(f, &s);
   if (s.look == fur::Look::Seed) s.light = fur::PresetLight(s.preset);
   s.background = s.look == fur::Look::Correct ? kStudioGrey : glm::dvec3(0);
   if (f.background.empty()) return s;
@@ -112,19 +102,14 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   return s;
 }
 
-// FurParams keys that flags set, as the JSON that the loader applies last.
-std::string FurOverrides(const RenderFlags& f) {
-  nlohmann::json j = nlohmann::json::object();
-  if (f.furLength > 0) j["length_scale"] = f.furLength;
-  if (f.uvScale > 0) j["layer_uv_scale"] = f.uvScale;
-  return j.empty() ? std::string() : j.dump();
-}
-
 Result<fur::Model> LoadModel(const RenderFlags& f) {
-  if (f.model.empty() && (!f.furFile.empty() || !f.furMaterial.empty() || f.furLength > 0 || f.uvScale > 0))
-    return Error{ErrorCode::Usage, "--fur, --fur-material, --fur-length and --uv-scale need a MODEL; the built-in animal has its own coat"};
-  if (f.model.empty()) return fur::MakeBuiltinAnimal();
-  return fur::LoadGltf(f.model, {.furFile = f.furFile, .furOverrides = FurOverrides(f), .furMaterial = f.furMaterial});
+  Result<std::string> overrides = GroomOverrides(f.fur);
+  if (!overrides) return overrides.error();
+  const fur::LoadOptions options{.furFile = f.furFile, .furOverrides = *overrides, .furMaterial = f.furMaterial};
+  if (!f.model.empty()) return fur::LoadGltf(f.model, options);
+  fur::Model model = fur::MakeBuiltinAnimal();
+  if (Result<Done> groomed = fur::GroomModel(options, &model); !groomed) return groomed.error();
+  return model;
 }
 
 // World positions of every vertex of every animal, with its fur: what a framing camera must show. A large field is
@@ -287,9 +272,6 @@ void AddShellFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--fin-threshold", f->finThreshold, "Edges this near to the silhouette grow a fading fin, 0..1")
       ->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
   c->add_option("--fin-opacity", f->finOpacity, "Opacity of a fin on the silhouette, 0..1")->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
-  c->add_option("--comb", f->comb, "Direction that the fur is combed to, X,Y,Z in the model's axes");
-  c->add_option("--comb-strength", f->combStrength, "Sideways offset of the tips, in fur lengths")->check(kFinite)->check(CLI::Range(0.0, 10.0))->capture_default_str();
-  c->add_option("--bend", f->bend, "Exponent of the height in the comb's offset: 1 straight, 2 bent")->check(kFinite)->check(CLI::Range(1.0, 8.0))->capture_default_str();
   c->add_option("--spacing", f->spacing, "Distance of two shells in the model's units; the length is N times it")->check(kFinite)->check(CLI::PositiveNumber);
   c->add_flag("--no-back-faces", f->noBackFaces, "Leave out the fur that is seen from behind");
   c->add_flag("--no-sort", f->noSort, "Draw the animals in the order given instead of back to front");
@@ -317,10 +299,10 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--count", f->count, "Number of animals")->check(CLI::Range(1u, kMaxAnimals))->capture_default_str();
   c->add_option("--repeat", f->repeat, "Timed frames after the first")->check(CLI::Range(0u, 100000u))->capture_default_str();
   c->add_option("--stats", f->stats, "JSON file for times and counts");
-  c->add_option("--fur", f->furFile, "JSON file of fur parameters (docs/fur.md)");
+  c->add_option("--groom,--fur", f->furFile, "JSON file of fur parameters (docs/fur.md, docs/groom.schema.json)");
   c->add_option("--fur-material", f->furMaterial, "Grow fur on the material of this name only");
-  c->add_option("--fur-length", f->furLength, "Fur length in the model's units")->check(kFinite)->check(CLI::PositiveNumber);
-  c->add_option("--uv-scale", f->uvScale, "Tiles of the fur volume across the UV square")->check(kFinite)->check(CLI::PositiveNumber);
+  c->add_option("--time", f->time, "Seconds that the wind has blown")->check(kFinite)->check(CLI::Range(0.0, 1e9));
+  AddGroomFlags(c, &f->fur);
   c->add_option("--background", f->background, "Background, R,G,B in 0..1: linear, default a grey, for look correct; raw, default black, for look seed");
   c->add_flag("--no-fins", f->noFins, "Draw no fins");
   c->add_flag("--no-shells", f->noShells, "Draw no shells");

@@ -34,16 +34,18 @@ Result<Done> CheckFinMode(const rhi::Caps& caps, const RenderSettings& settings)
 FinPass::FinPass(Creation& c, const RenderSettings& settings)
     : device_(c.Device()), mode_(Resolve(c.Device().GetCaps(), settings.finMode)) {
   if (!settings.drawFins) return;
-  ps_ = c.Shader(settings.look == Look::Seed ? shaders::fin_PSMain_seed : shaders::fin_PSMain_correct);
+  const bool seed = settings.look == Look::Seed;
+  ps_ = {c.Shader(seed ? shaders::fin_PSMain_seed : shaders::fin_PSMain_correct),
+         c.Shader(seed ? shaders::fin_PSMain_seed_groom : shaders::fin_PSMain_correct_groom)};
   if (mode_ == FinMode::Geometry) {
-    vs_ = c.Shader(shaders::fin_VSMain);
-    gs_ = c.Shader(shaders::fin_GSMain);
-    layout_ = FurLayout(c, vs_.get());
+    vs_.fill(c.Shader(shaders::fin_VSMain));
+    gs_ = {c.Shader(shaders::fin_GSMain), c.Shader(shaders::fin_GSMain_sway)};
+    layout_ = FurLayout(c, vs_[0].get());
     return;
   }
-  vs_ = c.Shader(shaders::fin_pull_VSMain);
+  vs_ = {c.Shader(shaders::fin_pull_VSMain), c.Shader(shaders::fin_pull_VSMain_sway)};
   if (mode_ == FinMode::Pulled) return;
-  compactedVS_ = c.Shader(shaders::fin_pull_VSMain_compacted);
+  compactedVS_ = {c.Shader(shaders::fin_pull_VSMain_compacted), c.Shader(shaders::fin_pull_VSMain_compacted_sway)};
   compactCS_ = c.Shader(shaders::fin_compact_CSMain);
 }
 
@@ -95,8 +97,9 @@ void FinPass::Compact(rhi::IContext& context, const PassBinding& binding, const 
       const Slot& slot = SlotOf(model, animal, i);
       rhi::IShaderResourceView* const inputs[] = {mesh.verticesView.get(), mesh.edgesView.get()};
       context.CSSetShaderResources(kFirstSlot, 2, inputs);
-      binding.SetMaterial(context, model.materials[part.material]);
-      binding.SetObject(context, in, in.placements[animal], part);
+      const GpuMaterial& material = model.materials[part.material];
+      binding.SetMaterial(context, material);
+      binding.SetObject(context, in, animal, part, material);
       binding.SetDraw(context, {mesh.edgeCount, slot.firstEdge, slot.arguments, 0});
       context.Dispatch(1, 1, 1);
       ++in.counts->dispatches;
@@ -111,14 +114,17 @@ void FinPass::Draw(rhi::IContext& context, const PassBinding& binding, const Gpu
   const bool geometry = mode_ == FinMode::Geometry;
   context.IASetInputLayout(layout_.get());
   context.IASetPrimitiveTopology(geometry ? rhi::PrimitiveTopology::LineListAdj : rhi::PrimitiveTopology::TriangleList);
-  PassBinding::SetShaders(context, in, (compacted_ ? compactedVS_ : vs_).get(), gs_.get(), ps_.get());
   for (size_t i = 0; i < model.parts.size(); ++i) {
     const GpuPart& part = model.parts[i];
     const GpuFurMesh& mesh = model.furMeshes[part.primitive];
     if (mesh.edgeCount == 0) continue;
     context.RSSetState(binding.Cull(part, rhi::CullMode::None));  // a fin has no back
-    binding.SetMaterial(context, model.materials[part.material]);
-    binding.SetObject(context, in, in.placements[animal], part);
+    const GpuMaterial& material = model.materials[part.material];
+    const size_t sways = material.sways, groomed = material.groomed;
+    PassBinding::SetShaders(context, in, (compacted_ ? compactedVS_ : vs_)[sways].get(), gs_[sways].get(),
+                            ps_[groomed].get());
+    binding.SetMaterial(context, material);
+    binding.SetObject(context, in, animal, part, material);
     DrawPart(context, binding, mesh, geometry || !compacted_ ? Slot{} : SlotOf(model, animal, i));
     ++in.counts->draws;
     in.counts->edges += mesh.edgeCount;

@@ -1,6 +1,8 @@
 // The fins of technique `shells`, three ways to the same picture.
 #pragma once
 
+#include <array>
+
 #include "fur/fur_mesh.h"
 #include "pass.h"
 
@@ -31,7 +33,10 @@ class FinPass {
   rhi::IDevice& device_;
   FinMode mode_;
   bool compacted_ = false;  // this frame's edges are
-  rhi::Ref<rhi::IShader> vs_, gs_, ps_, compactedVS_, compactCS_;
+  // By + 1: swaying; of the pixel shader by + 1: groomed.
+  using Pair = std::array<rhi::Ref<rhi::IShader>, 2>;
+  Pair vs_, gs_, ps_, compactedVS_;
+  rhi::Ref<rhi::IShader> compactCS_;
   rhi::Ref<rhi::IInputLayout> layout_;
   std::vector<Slot> slots_;
   uint64_t keptCapacity_ = 0;

@@ -109,16 +109,35 @@ Model Load(const std::filesystem::path& file, const LoadOptions& options) {
 }  // namespace
 }  // namespace gltf
 
-Result<Model> LoadGltf(const std::filesystem::path& file, const LoadOptions& options) {
+namespace {
+
+// What the reader throws, as an Error.
+template <class F>
+auto Guarded(const std::string& file, F work) -> Result<decltype(work())> {
   try {
-    return gltf::Load(file, options);
+    return work();
   } catch (const gltf::LoadFailure& failure) {
     return Error{failure.code, gltf::OneLine(failure.what())};
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::InputMalformed, file.string() + ": needs more memory than there is"};
+    return Error{ErrorCode::InputMalformed, file + ": needs more memory than there is"};
   } catch (const std::exception& e) {  // from tinygltf or the JSON library
-    return Error{ErrorCode::InputMalformed, gltf::OneLine(file.string() + ": cannot be read as glTF: " + e.what())};
+    return Error{ErrorCode::InputMalformed, gltf::OneLine(file + ": cannot be read as glTF: " + e.what())};
   }
+}
+
+}  // namespace
+
+Result<Model> LoadGltf(const std::filesystem::path& file, const LoadOptions& options) {
+  return Guarded(file.string(), [&] { return gltf::Load(file, options); });
+}
+
+Result<Done> GroomModel(const LoadOptions& options, Model* model) {
+  return Guarded(options.furFile.string(), [&] {
+    gltf::Document none;
+    gltf::ResolveFur(none, options, std::vector<double>(model->primitives.size(), 1), model);
+    model->warnings.insert(model->warnings.end(), none.warnings.begin(), none.warnings.end());
+    return Done{};
+  });
 }
 
 }  // namespace fur

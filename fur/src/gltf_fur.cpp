@@ -5,6 +5,7 @@
 
 #include "file_bytes.h"
 #include "fur/coat.h"
+#include "fur/groom.h"
 #include "fur/image_io.h"
 #include "gltf_internal.h"
 
@@ -87,7 +88,7 @@ class Resolver {
     const std::vector<bool> furred = Choose();
     for (uint32_t i = 0; i < model_.materials.size(); ++i) {
       const FurParams params = Params(i, furred[i]);
-      if (furred[i] && params.enabled) model_.materials[i].fur = Grow(i, params);
+      model_.materials[i].fur = furred[i] && params.enabled ? std::optional(Grow(i, params)) : std::nullopt;
     }
   }
 
@@ -99,6 +100,7 @@ class Resolver {
   double diameter_;
   FurFile file_;
   std::map<std::string, int32_t> images_;                // by path: each file is read once
+  std::map<std::pair<int32_t, int32_t>, int32_t> furless_;  // by the pictures of length and of where fur is
   std::map<std::vector<std::string>, int32_t> volumes_;  // by the layers' paths; none: the grown volume
 
   static double Diameter(const Model& model) {
@@ -132,7 +134,9 @@ class Resolver {
                                    MaterialNames(model_))});
     }
     const auto bald = [&](uint32_t i) { return file_.materials.value(name(i), Json()) == false; };
-    const auto named = [&](uint32_t i) { return file_.materials.contains(name(i)) || Extras(i) != nullptr; };
+    const auto named = [&](uint32_t i) {
+      return file_.materials.contains(name(i)) || Extras(i) != nullptr || model_.materials[i].fur.has_value();
+    };
     if (choose([&](uint32_t i) { return !bald(i) && named(i); })) return chosen;
     if (choose([&](uint32_t i) { return !bald(i) && ContainsFur(name(i)); })) return chosen;
     choose([&](uint32_t i) { return !bald(i); });
@@ -164,7 +168,8 @@ class Resolver {
 
   // Bald materials' parameters are checked too: a typing error should not hide behind another setting.
   FurParams Params(uint32_t material, bool furred) const {
-    FurParams params;
+    const std::optional<MaterialFur>& coat = model_.materials[material].fur;
+    FurParams params = coat ? coat->params : FurParams{};
     for (const Source& source : Sources(material, furred)) {
       if (Result<Done> ok = ApplyFurJson(source.object, source.where, source.extras, &params); !ok)
         Fail({source.code, ok.error().message});
@@ -180,6 +185,7 @@ class Resolver {
     };
     if (source.object.contains("length_map")) resolve(params->lengthMap);
     if (source.object.contains("direction_map")) resolve(params->directionMap);
+    if (source.object.contains("furless_map")) resolve(params->furlessMap);
     if (source.object.contains("layers")) std::for_each(params->layers.begin(), params->layers.end(), resolve);
   }
 
@@ -191,7 +197,12 @@ class Resolver {
   }
 
   MaterialFur Grow(uint32_t material, const FurParams& params) {
-    MaterialFur fur{params, Volume(params.layers), ImageFile(params.lengthMap), ImageFile(params.directionMap)};
+    MaterialFur fur = model_.materials[material].fur.value_or(MaterialFur{});
+    fur.params = params;
+    if (fur.volume < 0 || !params.layers.empty()) fur.volume = Volume(params.layers);
+    if (!params.lengthMap.empty()) fur.lengthMap = ImageFile(params.lengthMap);
+    if (!params.directionMap.empty()) fur.directionMap = ImageFile(params.directionMap);
+    if (!params.furlessMap.empty()) fur.lengthMap = Furless(fur.lengthMap, ImageFile(params.furlessMap));
     const double unit = UnitScale(material);
     constexpr double kLengthOfDiameter = 0.025;  // a short coat on an animal
     if (fur.params.length == 0) fur.params.length = kLengthOfDiameter * diameter_ / unit;
@@ -238,6 +249,15 @@ class Resolver {
     Result<Image> image = ReadImage(path);
     if (!image) Fail(image.error());
     model_.images.push_back(std::move(*image));
+    return it->second;
+  }
+
+  int32_t Furless(int32_t length, int32_t furless) {
+    const auto [it, isNew] = furless_.try_emplace({length, furless}, static_cast<int32_t>(model_.images.size()));
+    if (!isNew) return it->second;
+    const Image* lengths = length < 0 ? nullptr : &model_.images[size_t(length)];
+    Image both = WithoutFurless(lengths, model_.images[size_t(furless)]);
+    model_.images.push_back(std::move(both));
     return it->second;
   }
 

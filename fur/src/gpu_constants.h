@@ -9,7 +9,7 @@
 namespace fur {
 
 static_assert(sizeof(FrameConstants) == 80 && offsetof(FrameConstants, lightSpecular) == 64);
-static_assert(sizeof(MaterialConstants) == 112 && offsetof(MaterialConstants, furSemantics) == 80);
-static_assert(sizeof(ObjectConstants) == 208 && offsetof(ObjectConstants, comb) == 192);
+static_assert(sizeof(MaterialConstants) == 160 && offsetof(MaterialConstants, groom) == 112);
+static_assert(sizeof(ObjectConstants) == 256 && offsetof(ObjectConstants, windWave) == 240);
 
 }  // namespace fur

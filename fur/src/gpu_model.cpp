@@ -6,6 +6,7 @@
 
 #include "driver_error.h"
 #include "fur/fur_mesh.h"
+#include "fur/groom.h"
 #include "gpu_constants.h"
 #include "mips.h"
 #include "preset_textures.h"
@@ -235,16 +236,58 @@ class Uploader {
     return ComputeBounds(model_).Diameter() / 1000 * shells / (unit > 0 ? unit : 1);
   }
 
+  // The groom belongs to technique shells; a preset knows the comb.
+  FurParams Groomed(const FurParams& params) const {
+    FurParams p = params;
+    if (settings_.comb) {
+      p.comb = *settings_.comb;
+      p.combStrength = glm::length(p.comb);
+    }
+    if (settings_.bend) p.bend = *settings_.bend;
+    if (settings_.technique != Technique::Shells) return PlainWithComb(p);
+    if (p.windLength == 0) p.windLength = std::max(ComputeBounds(model_).Diameter() / 2, 1e-6);
+    p.specularScale = WetSpecularScale(p.specularScale, p.wetness);
+    p.specularPower = WetSpecularPower(p.specularPower, p.wetness);
+    return p;
+  }
+
+  static FurParams PlainWithComb(FurParams p) {
+    const FurParams plain;
+    p.density = plain.density;
+    p.thickness = plain.thickness;
+    p.gravity = plain.gravity;
+    p.rootColor = plain.rootColor;
+    p.tipColor = plain.tipColor;
+    p.colorFromBase = plain.colorFromBase;
+    p.clumping = plain.clumping;
+    p.wetness = plain.wetness;
+    p.windStrength = plain.windStrength;
+    return p;
+  }
+
+  static void AddGroom(const FurParams& p, GpuMaterial* gpu, MaterialConstants* c) {
+    gpu->groom = p;
+    gpu->groomed = IsGroomed(p);
+    gpu->sways = MakeFurSway(p, glm::dmat4(1), glm::dmat4(1), 0, glm::dvec3(0)).Varies();
+    gpu->wet = p.wetness > 0;
+    c->groom = {float(p.density), float(WetClumping(p.clumping, p.wetness)), float(p.colorFromBase),
+                float(WetDarkening(p.wetness))};
+    c->rootColor = glm::vec4(p.rootColor, 0);
+    c->tipColor = glm::vec4(p.tipColor, 0);
+  }
+
   void AddFur(uint32_t index, const Material& m, GpuMaterial* gpu, MaterialConstants* c) {
     const MaterialFur& fur = *m.fur;
-    const FurVolume& volume = model_.volumes[size_t(fur.volume)];
-    const FurParams& p = fur.params;
+    const FurParams p = Groomed(fur.params);
+    const FurVolume& thin = model_.volumes[size_t(fur.volume)];
+    const FurVolume thick = p.thickness == 1 ? FurVolume{} : Thickened(thin, p.thickness);
+    const FurVolume& volume = p.thickness == 1 ? thin : thick;
     gpu->shells = ShellCount(settings_, p.shells, volume.layers);
     gpu->lengthMap = fur.lengthMap < 0 ? OneTexel({255, 255, 255, 255}, "full length")
                                        : ModelTexture(fur.lengthMap, MipFilter::Raw);
     // The demo's shells lose coverage with height whatever the volume holds.
     const double falloff = AsShipped() ? 1 : p.heightFalloff;
-    const double length = FurLength(index, p, gpu->shells);
+    const double length = WetLength(FurLength(index, p, gpu->shells), p.wetness);
     gpu->furVolume = Volume(volume, falloff);
     c->furShape = {float(length), float(p.layerUvScale), float(volume.layers), float(gpu->shells)};
     c->furLight = {float(p.selfShadow), float(p.specularPower), float(p.specularScale), float(falloff)};
@@ -254,6 +297,7 @@ class Uploader {
     c->fin = {float(settings_.finThreshold), float(settings_.finOpacity), float(settings_.finDeadZone), 0};
     // (i + 1/2) N0 / N - 1/2 is whole for every i where N0 / N is odd.
     gpu->betweenSlices = volume.layers % gpu->shells != 0 || volume.layers / gpu->shells % 2 == 0;
+    AddGroom(p, gpu, c);
     AddPreset(m, volume, gpu, c);
   }
 

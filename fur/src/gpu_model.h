@@ -32,6 +32,10 @@ struct GpuMaterial {
   uint32_t shells = 0;               // 0: bald
   bool betweenSlices = false;        // a shell may lie between two slices of the volume
   bool doubleSided = false;
+  FurParams groom;                // for how it leans (fur/groom.h), with the settings' comb and wind_length resolved
+  bool groomed = false;           // shaded by the variants GROOM
+  bool sways = false;             // placed by the variants SWAY
+  bool wet = false;               // the skin too
 };
 
 struct GpuPart {

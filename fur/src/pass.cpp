@@ -18,18 +18,11 @@ FrameConstants MakeFrameConstants(const FrameInputs& in) {
   return f;
 }
 
-// The comb is the animal's: it turns with the placement, and reaches each part's own axes by its rotation alone, since
-// it is relative to the fur's length. A part that is flattened to nothing has none.
-glm::dvec3 ToPartAxes(const glm::dmat4& transform, const glm::dvec3& v) {
-  const glm::dmat3 linear(transform);
-  const double volume = std::abs(glm::determinant(linear));
-  const glm::dvec3 turned = glm::inverse(linear) * v * std::cbrt(volume);
-  return volume > 0 && std::isfinite(turned.x + turned.y + turned.z) ? turned : glm::dvec3(0);
-}
-
 }  // namespace
 
-glm::dvec3 PartComb(const FrameInputs& in, const GpuPart& part) { return ToPartAxes(part.transform, in.comb); }
+FurSway PartSway(const FrameInputs& in, size_t animal, const GpuPart& part, const GpuMaterial& material) {
+  return MakeFurSway(material.groom, in.placements[animal], part.transform, in.motion.time, in.OffsetOf(animal));
+}
 
 ObjectConstants MakeObjectConstants(const glm::dmat4& objectToWorld, const FrameInputs& in) {
   glm::dmat4 objectToEye = objectToWorld;
@@ -72,10 +65,14 @@ void PassBinding::SetMaterial(rhi::IContext& context, const GpuMaterial& m) cons
   }
 }
 
-void PassBinding::SetObject(rhi::IContext& context, const FrameInputs& in, const glm::dmat4& placement,
-                            const GpuPart& part) const {
-  ObjectConstants o = MakeObjectConstants(placement * part.transform, in);
-  o.comb = glm::vec4(PartComb(in, part), in.bend);
+void PassBinding::SetObject(rhi::IContext& context, const FrameInputs& in, size_t animal, const GpuPart& part,
+                            const GpuMaterial& material) const {
+  ObjectConstants o = MakeObjectConstants(in.placements[animal] * part.transform, in);
+  const FurSway sway = PartSway(in, animal, part, material);
+  o.comb = glm::vec4(sway.comb, sway.bend);
+  o.gravity = glm::vec4(sway.gravity, 0);
+  o.wind = glm::vec4(sway.wind, 0);
+  o.windWave = glm::vec4(sway.wave, sway.phase);
   context.UpdateConstants(object_.get(), &o, sizeof o);
 }
 
@@ -119,6 +116,7 @@ BasePass::BasePass(Creation& c, Look look, const rhi::ShaderBlob* furred)
     : vs_(c.Shader(shaders::base_VSMain)),
       ps_(c.Shader(look == Look::Seed ? shaders::base_PSMain_seed : shaders::base_PSMain)),
       furred_(furred ? c.Shader(*furred) : ps_),
+      wet_(furred ? furred_ : c.Shader(look == Look::Seed ? shaders::base_PSMain_seed_wet : shaders::base_PSMain_wet)),
       layout_(ModelLayout(c, vs_.get())) {}
 
 void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
@@ -127,16 +125,16 @@ void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const Gp
   context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
   context.OMSetBlendState(binding.opaque.get());
   context.OMSetDepthStencilState(binding.depthWrite.get());
-  for (const glm::dmat4& placement : in.placements)
+  for (size_t animal = 0; animal < in.placements.size(); ++animal)
     for (const GpuPart& part : model.parts) {
       const GpuMaterial& material = model.materials[part.material];
       const GpuGeometry& g = model.geometry[part.primitive];
       context.RSSetState(binding.Cull(part, material.doubleSided ? rhi::CullMode::None : rhi::CullMode::Back));
-      rhi::IShader* ps = material.shells > 0 ? furred_.get() : ps_.get();
+      rhi::IShader* ps = material.shells == 0 ? ps_.get() : material.wet ? wet_.get() : furred_.get();
       PassBinding::SetShaders(context, in, vs_.get(), nullptr, ps);
       binding.SetMaterial(context, material);
       PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.indices.get());
-      binding.SetObject(context, in, placement, part);
+      binding.SetObject(context, in, animal, part, material);
       context.DrawIndexed(g.indexCount, 0, 0);
       ++in.counts->draws;
       in.counts->triangles += g.indexCount / 3;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "creation.h"
+#include "fur/groom.h"
 #include "technique.h"
 
 namespace fur {
@@ -15,8 +16,9 @@ class PassBinding {
   // Every texture of the material on every graphics stage, t0..t7 and s0, s1 (fur_volume.hlsli; t5..t7: the presets'
   // opacity map, map of fins and furless spots); b1.
   void SetMaterial(rhi::IContext&, const GpuMaterial&) const;
-  void SetObject(rhi::IContext&, const FrameInputs&, const glm::dmat4& placement, const GpuPart&) const;  // b2
-  void SetDraw(rhi::IContext&, const glm::vec4&) const;                                                   // b3
+  // b2. `material`: what grows on the part.
+  void SetObject(rhi::IContext&, const FrameInputs&, size_t animal, const GpuPart&, const GpuMaterial& material) const;
+  void SetDraw(rhi::IContext&, const glm::vec4&) const;  // b3
   // `counting`: the shader that replaces every pixel shader.
   static void SetShaders(rhi::IContext&, const FrameInputs&, rhi::IShader* vs, rhi::IShader* gs, rhi::IShader* ps);
   static void SetVertices(rhi::IContext&, rhi::IBuffer* vertices, uint32_t stride, rhi::IBuffer* indices);
@@ -31,8 +33,8 @@ class PassBinding {
   rhi::Ref<rhi::ISamplerState> volumeSampler_;
 };
 
-// The frame's comb in the part's axes.
-glm::dvec3 PartComb(const FrameInputs&, const GpuPart&);
+// How a part's fur leans.
+FurSway PartSway(const FrameInputs&, size_t animal, const GpuPart&, const GpuMaterial&);
 
 // The solid pass: skin and bald parts.
 class BasePass {
@@ -42,7 +44,7 @@ class BasePass {
   void Draw(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&) const;
 
  private:
-  rhi::Ref<rhi::IShader> vs_, ps_, furred_;
+  rhi::Ref<rhi::IShader> vs_, ps_, furred_, wet_;
   rhi::Ref<rhi::IInputLayout> layout_;
 };
 

@@ -56,7 +56,7 @@ class PublishedTechnique final : public ITechnique {
     PassBinding::SetShaders(context, in, shaders_.finVS.get(), shaders_.finGS.get(), shaders_.finPS.get());
     context.IASetPrimitiveTopology(traits_.fins);
     BeginBlending(context);
-    for (const glm::dmat4& placement : in.placements)
+    for (size_t animal = 0; animal < in.placements.size(); ++animal)
       for (const GpuPart& part : model.parts) {
         const GpuMaterial* material = FinMaterial(model, part);
         const GpuGeometry& g = model.geometry[part.primitive];
@@ -64,7 +64,7 @@ class PublishedTechnique final : public ITechnique {
         context.RSSetState(binding_.Cull(part, traits_.finCull));
         binding_.SetMaterial(context, *material);
         PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.finIndices.get());
-        binding_.SetObject(context, in, placement, part);
+        binding_.SetObject(context, in, animal, part, *material);
         context.DrawIndexed(g.finIndexCount, 0, 0);
         ++in.counts->draws;
         in.counts->edges += g.finIndexCount / indicesOfEdge;
@@ -76,7 +76,7 @@ class PublishedTechnique final : public ITechnique {
     PassBinding::SetShaders(context, in, shaders_.shellVS.get(), shaders_.shellGS.get(), shaders_.shellPS.get());
     context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
     BeginBlending(context);
-    for (const glm::dmat4& placement : in.placements)
+    for (size_t animal = 0; animal < in.placements.size(); ++animal)
       for (const GpuPart& part : model.parts) {
         const GpuMaterial& material = model.materials[part.material];
         const GpuGeometry& g = model.geometry[part.primitive];
@@ -84,7 +84,7 @@ class PublishedTechnique final : public ITechnique {
         context.RSSetState(binding_.Cull(part, rhi::CullMode::Back));
         binding_.SetMaterial(context, material);
         PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.indices.get());
-        binding_.SetObject(context, in, placement, part);
+        binding_.SetObject(context, in, animal, part, material);
         in.counts->draws += DrawEachShell(context, g, material.shells);
         // Amplified: submitted once, but that many leave the geometry shader.
         in.counts->triangles += uint64_t(g.indexCount / 3) * material.shells;

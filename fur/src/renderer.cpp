@@ -148,9 +148,11 @@ class RendererImpl final : public Renderer {
     return Done{};
   }
 
-  void Draw(const Camera& camera, std::span<const glm::dmat4> placements) override {
+  void Draw(const Camera& camera, std::span<const glm::dmat4> placements, const Motion& motion) override {
     FrameCounts counts;
     FrameInputs in = Inputs(camera, placements, &counts);
+    in.motion.time += motion.time;
+    in.motion.offsets = motion.offsets;
     DrawInto(targets_, in);
     if (settings_.samples > 1)
       Context().ResolveSubresource(targets_.resolved.get(), 0, targets_.color.get(), 0, targets_.format);
@@ -221,8 +223,7 @@ class RendererImpl final : public Renderer {
     in.worldToClip = ProjectionMatrix(camera, double(settings_.width) / settings_.height) * ViewMatrix(camera);
     in.light = settings_.light;
     in.placements = placements;
-    in.comb = settings_.comb;
-    in.bend = settings_.bend;
+    in.motion.time = settings_.time;
     in.counts = counts;
     return in;
   }

@@ -10,14 +10,16 @@ namespace {
 // As shaders_hlsl/fur_point.hlsli: the most that the geometry shader emits for each triangle.
 constexpr uint32_t kShellsInGs = 14, kVaryingScalars = 24;
 
-const rhi::ShaderBlob& PixelShader(Look look, Semantics semantics, bool between) {
-  const bool seed = look == Look::Seed, volume = semantics == Semantics::Volume;
-  if (between)
-    return seed ? (volume ? shaders::shell_PSMain_between_seed_volume : shaders::shell_PSMain_between_seed)
-                : (volume ? shaders::shell_PSMain_between_volume : shaders::shell_PSMain_between);
-  return seed ? (volume ? shaders::shell_PSMain_seed_volume : shaders::shell_PSMain_seed)
-              : (volume ? shaders::shell_PSMain_volume : shaders::shell_PSMain);
-}
+// By + 1: look seed, + 2: volume, + 4: between slices, + 8: groomed.
+const rhi::ShaderBlob* const kPixelShaders[16] = {
+    &shaders::shell_PSMain, &shaders::shell_PSMain_seed,
+    &shaders::shell_PSMain_volume, &shaders::shell_PSMain_seed_volume,
+    &shaders::shell_PSMain_between, &shaders::shell_PSMain_between_seed,
+    &shaders::shell_PSMain_between_volume, &shaders::shell_PSMain_between_seed_volume,
+    &shaders::shell_PSMain_groom, &shaders::shell_PSMain_seed_groom,
+    &shaders::shell_PSMain_volume_groom, &shaders::shell_PSMain_seed_volume_groom,
+    &shaders::shell_PSMain_between_groom, &shaders::shell_PSMain_between_seed_groom,
+    &shaders::shell_PSMain_between_volume_groom, &shaders::shell_PSMain_between_seed_volume_groom};
 
 }  // namespace
 
@@ -43,11 +45,12 @@ Result<Done> CheckShellMode(const rhi::Caps& caps, const RenderSettings& setting
 ShellPass::ShellPass(Creation& c, const RenderSettings& settings)
     : mode_(settings.shellMode), backFaces_(settings.backFaces), shellsAtOnce_(settings.shellsAtOnce) {
   const bool amplified = mode_ == ShellMode::Amplified && settings.drawShells;
-  vs_ = c.Shader(amplified ? shaders::shell_amplify_VSMain : shaders::shell_VSMain);
-  if (amplified) gs_ = c.Shader(shaders::shell_amplify_GSMain);
-  onSlicesPS_ = c.Shader(PixelShader(settings.look, settings.semantics, false));
-  betweenPS_ = c.Shader(PixelShader(settings.look, settings.semantics, true));
-  layout_ = FurLayout(c, vs_.get());
+  vs_.still = c.Shader(amplified ? shaders::shell_amplify_VSMain : shaders::shell_VSMain);
+  vs_.swaying = amplified ? vs_.still : c.Shader(shaders::shell_VSMain_sway);
+  if (amplified) gs_ = {c.Shader(shaders::shell_amplify_GSMain), c.Shader(shaders::shell_amplify_GSMain_sway)};
+  const size_t shader = (settings.look == Look::Seed ? 1u : 0u) + (settings.semantics == Semantics::Volume ? 2u : 0u);
+  for (size_t i = 0; i < ps_.size(); ++i) ps_[i] = c.Shader(*kPixelShaders[shader + 4 * i]);
+  layout_ = FurLayout(c, vs_.still.get());
 }
 
 void ShellPass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model, const FrameInputs& in,
@@ -69,7 +72,9 @@ std::vector<rhi::IBuffer*> ShellPass::Indices(rhi::IContext& context, const GpuM
     indices.push_back(model.furMeshes[part.primitive].indices.get());
     if (!part.sortedIndices) continue;
     const glm::dvec3 eye(glm::inverse(in.placements[animal] * part.transform) * glm::dvec4(in.eye, 1));
-    if (Sort(context, model.furMeshes[part.primitive], eye, PartComb(in, part), part.sortedIndices.get()))
+    const FurSway sway = PartSway(in, animal, part, model.materials[part.material]);
+    const glm::dvec3 lean = sway.comb + sway.gravity + sway.wind * 0.5;  // in the mean
+    if (Sort(context, model.furMeshes[part.primitive], eye, lean, part.sortedIndices.get()))
       indices.back() = part.sortedIndices.get();
   }
   return indices;
@@ -94,11 +99,12 @@ void ShellPass::DrawSide(rhi::IContext& context, const PassBinding& binding, con
     const GpuMaterial& material = model.materials[part.material];
     const GpuFurMesh& mesh = model.furMeshes[part.primitive];
     if (mesh.indexCount == 0) continue;
-    PassBinding::SetShaders(context, in, vs_.get(), gs_.get(), (material.betweenSlices ? betweenPS_ : onSlicesPS_).get());
+    const size_t shader = (material.betweenSlices ? 1u : 0u) + (material.groomed ? 2u : 0u);
+    PassBinding::SetShaders(context, in, vs_.For(material), gs_.For(material), ps_[shader].get());
     context.RSSetState(binding.Cull(part, side.back ? rhi::CullMode::Front : rhi::CullMode::Back));
     binding.SetMaterial(context, material);
     PassBinding::SetVertices(context, mesh.vertices.get(), sizeof(FurVertex), side.indices[i]);
-    binding.SetObject(context, in, in.placements[side.animal], part);
+    binding.SetObject(context, in, side.animal, part, material);
     DrawShells(context, binding, mesh, material.shells, side.back, in.counts);
   }
 }

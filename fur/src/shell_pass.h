@@ -2,6 +2,7 @@
 // from the front inside out: shell by shell, or, amplified, some shells of each triangle at a time (docs/measured.md).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fur/fur_mesh.h"
@@ -27,6 +28,10 @@ class ShellPass {
   std::vector<rhi::IBuffer*> Indices(rhi::IContext&, const GpuModel&, const FrameInputs&, size_t animal) const;
   static bool Sort(rhi::IContext&, const GpuFurMesh&, const glm::dvec3& eye, const glm::dvec3& comb,
                    rhi::IBuffer* sorted);
+  struct Shaders {
+    rhi::Ref<rhi::IShader> still, swaying;
+    rhi::IShader* For(const GpuMaterial& m) const { return (m.sways ? swaying : still).get(); }
+  };
   void DrawSide(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, const Side&) const;
   void DrawShells(rhi::IContext&, const PassBinding&, const GpuFurMesh&, uint32_t shells, bool back,
                   FrameCounts*) const;
@@ -34,7 +39,8 @@ class ShellPass {
   ShellMode mode_;
   bool backFaces_;
   uint32_t shellsAtOnce_;  // in the geometry shader
-  rhi::Ref<rhi::IShader> vs_, gs_, onSlicesPS_, betweenPS_;
+  Shaders vs_, gs_;
+  std::array<rhi::Ref<rhi::IShader>, 4> ps_;  // + 1: between slices, + 2: groomed
   rhi::Ref<rhi::IInputLayout> layout_;
 };
 

@@ -3,6 +3,7 @@
 // the front from the inside out. Blended premultiplied: (1, 1 - alpha).
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 #include "fin_pass.h"
 #include "fur_shaders/fur_shaders.h"
@@ -23,16 +24,17 @@ class ShellsTechnique final : public ITechnique {
         over_(c.Blend(rhi::Blend::One, rhi::Blend::InvSrcAlpha)) {}
 
   void Draw(rhi::IContext& context, const GpuModel& model, const FrameInputs& in) override {
-    const std::vector<glm::dmat4> order = BackToFront(model, in);
+    const Animals order = BackToFront(model, in);
     FrameInputs sorted = in;
-    sorted.placements = order;
+    sorted.placements = order.placements;
+    sorted.motion.offsets = order.offsets;
     binding_.BindFrame(context, in);
     if (settings_.drawFins) fins_.Prepare(context, binding_, model, sorted);
     DrawBase(context, model, sorted);
     context.OMSetBlendState(over_.get());
     context.OMSetDepthStencilState(binding_.depthRead.get());
     if (in.passQueries.empty()) {
-      for (size_t animal = 0; animal < order.size(); ++animal) DrawFur(context, model, sorted, animal, true, true);
+      for (size_t animal = 0; animal < order.placements.size(); ++animal) DrawFur(context, model, sorted, animal, true, true);
     } else {  // what is counted does not depend on the order
       RunPass(context, in, Pass::Fins, [&] { DrawAllFur(context, model, sorted, true); });
       RunPass(context, in, Pass::Shells, [&] { DrawAllFur(context, model, sorted, false); });
@@ -40,15 +42,25 @@ class ShellsTechnique final : public ITechnique {
   }
 
  private:
+  struct Animals {
+    std::vector<glm::dmat4> placements;
+    std::vector<glm::dvec3> offsets;
+  };
+
   // By the distance of their middles: all of an animal's layers belong together.
-  std::vector<glm::dmat4> BackToFront(const GpuModel& model, const FrameInputs& in) const {
-    std::vector<glm::dmat4> order(in.placements.begin(), in.placements.end());
-    if (!settings_.sortAnimals) return order;
+  Animals BackToFront(const GpuModel& model, const FrameInputs& in) const {
+    std::vector<size_t> order(in.placements.size());
+    std::iota(order.begin(), order.end(), size_t{0});
     const glm::dvec4 center(model.bounds.Center(), 1);
-    const auto distance = [&](const glm::dmat4& m) { return glm::length(glm::dvec3(m * center) - in.eye); };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](const glm::dmat4& a, const glm::dmat4& b) { return distance(a) > distance(b); });
-    return order;
+    const auto distance = [&](size_t i) { return glm::length(glm::dvec3(in.placements[i] * center) - in.eye); };
+    if (settings_.sortAnimals)
+      std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return distance(a) > distance(b); });
+    Animals animals;
+    for (const size_t i : order) {
+      animals.placements.push_back(in.placements[i]);
+      animals.offsets.push_back(in.OffsetOf(i));
+    }
+    return animals;
   }
 
   // Nearest first, so that what is hidden is not shaded.
@@ -56,6 +68,7 @@ class ShellsTechnique final : public ITechnique {
     const std::vector<glm::dmat4> nearestFirst(sorted.placements.rbegin(), sorted.placements.rend());
     FrameInputs in = sorted;
     in.placements = nearestFirst;
+    in.motion.offsets = {};
     RunPass(context, in, Pass::Base, [&] { base_.Draw(context, binding_, model, in); });
   }
 

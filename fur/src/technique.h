@@ -18,12 +18,15 @@ struct FrameInputs {
   glm::dvec3 eye{0};
   glm::dmat4 worldToClip{1};
   Light light;
-  glm::dvec3 comb{0};  // sideways offset of the tips relative to the fur's length, in the animal's axes
-  double bend = 2;     // exponent of the height in that offset
   std::span<const glm::dmat4> placements;
   FrameCounts* counts = nullptr;                          // never null
   rhi::IShader* countingShader = nullptr;                 // set: replaces every pixel shader
   std::span<const rhi::Ref<rhi::IQuery>> passQueries;     // empty, or one occlusion query for each pass
+  Motion motion{};                                        // time: the settings' added
+
+  glm::dvec3 OffsetOf(size_t animal) const {
+    return animal < motion.offsets.size() ? motion.offsets[animal] : glm::dvec3(0);
+  }
 };
 
 class ITechnique {

@@ -49,7 +49,6 @@ const BadFlag kChoices[] = {
     {"NegativeRepeat", {"--repeat=-1"}, {"--repeat"}},
     {"RepeatText", {"--repeat", "1.5"}, {"--repeat"}},
     {"SecondModel", {"a.gltf", "b.gltf"}, {"b.gltf"}},
-    {"FurWithoutAModel", {"--fur", "x.json"}, {"MODEL"}},
 };
 const BadFlag kCamera[] = {
     {"EyeText", {"--eye", "here"}, {"--eye", "here"}},

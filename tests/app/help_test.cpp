@@ -17,7 +17,7 @@ TEST(Help, RenderNamesEveryFlag) {
   for (const char* flag :
        {"-o",          "--output", "--backend",  "--size",    "--samples",   "--technique", "--look",
         "--semantics", "--shells", "--eye",      "--target",  "--fov",       "--count",     "--repeat",
-        "--stats",     "--fur",    "--validate", "--preset", "--coat", "--dead-zone", "--no-fins", "--no-shells", "MODEL"})
+        "--stats",     "--fur",    "--groom", "--wetness", "--time", "--validate", "--preset", "--coat", "--dead-zone", "--no-fins", "--no-shells", "MODEL"})
     EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
 }
 

@@ -76,6 +76,66 @@ TEST_F(GltfFur, LaterSourcesWin) {
   EXPECT_EQ(params.specularPower, 4);
 }
 
+// Every pair of the five sources, each with a wetness of its own; and each alone against the default.
+TEST_F(GltfFur, OfTwoSourcesTheLaterOneWins) {
+  const auto drawn = [&](uint32_t sources) {
+    const auto wet = [](int source) { return nlohmann::json{{"wetness", 0.1 * source}}; };
+    const auto has = [&](int source) { return (sources >> source & 1) != 0; };
+    b.json["materials"][0].erase("extras");
+    if (has(2)) Extras(0) = wet(2);
+    nlohmann::json file = nlohmann::json::object();
+    if (has(3)) file["default"] = wet(3);
+    if (has(4)) file["materials"]["Body"] = wet(4);
+    LoadOptions options = File(file.dump());
+    if (has(5)) options.furOverrides = wet(5).dump();
+    return Params(options).wetness;
+  };
+  EXPECT_EQ(drawn(0), 0);
+  for (int later = 2; later <= 5; ++later)
+    for (int earlier = 1; earlier < later; ++earlier)
+      EXPECT_EQ(drawn(1u << later | 1u << earlier), 0.1 * later) << earlier << " and " << later;
+}
+
+// A coat that a program gave its model counts as the earliest source.
+TEST_F(GltfFur, GroomsACoatThatIsThere) {
+  Model model;
+  model.materials = {{.name = "Body"}, {.name = "Eye"}};
+  model.volumes = {{"own", 1, 1, 1, {128, 128, 255, 9}}};
+  model.materials[0].fur = MaterialFur{.volume = 0};
+  model.materials[0].fur->params.wetness = 0.1;
+  model.materials[0].fur->params.clumping = 0.4;
+  LoadOptions options = File(R"({"default": {"wetness": 0.3}})");
+  ASSERT_TRUE(GroomModel(options, &model));
+  EXPECT_EQ(model.materials[0].fur->params.wetness, 0.3);
+  EXPECT_EQ(model.materials[0].fur->params.clumping, 0.4);
+  EXPECT_EQ(model.materials[0].fur->volume, 0);
+  EXPECT_FALSE(model.materials[1].fur);
+  options.furOverrides = R"({"wetness": 0.5})";
+  ASSERT_TRUE(GroomModel(options, &model));
+  EXPECT_EQ(model.materials[0].fur->params.wetness, 0.5);
+  EXPECT_FALSE(GroomModel(File(R"({"default": {"wet": 1}})"), &model));
+  ASSERT_TRUE(GroomModel(File(R"({"materials": {"Body": false, "Eye": {}}})"), &model));
+  EXPECT_FALSE(model.materials[0].fur);
+  EXPECT_TRUE(model.materials[1].fur);
+}
+
+// One furless map on two length maps makes two pictures, on one of them one.
+TEST_F(GltfFur, FurlessMapMultipliesTheLength) {
+  folder.WritePicture("spots.png", 2, 2, 40);
+  folder.WritePicture("l.png", 1, 1, 200);
+  Extras(0) = {{"furless_map", "spots.png"}};
+  Extras(1) = {{"furless_map", "spots.png"}, {"length_map", "l.png"}};
+  Extras(2) = Extras(1);
+  const Result<Model> model = Load(folder, b);
+  ASSERT_TRUE(model) << Message(model);
+  EXPECT_EQ(model->images.size(), 4u);
+  EXPECT_EQ(model->materials[1].fur->lengthMap, model->materials[2].fur->lengthMap);
+  EXPECT_NE(model->materials[0].fur->lengthMap, model->materials[1].fur->lengthMap);
+  EXPECT_EQ(model->images[size_t(model->materials[1].fur->lengthMap)].width, 2u);
+  Extras(0) = {{"furless_map", "none.png"}};
+  ExpectError(Load(folder, b), ErrorCode::InputMissing, "none.png");
+}
+
 TEST_F(GltfFur, RefusesBadFurFilesAndFlags) {
   const auto refused = [&](const std::string& json, const std::string& keyword) {
     ExpectError(Load(folder, b, File(json)), ErrorCode::InputMalformed, keyword);

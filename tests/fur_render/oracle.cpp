@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace fur::test {
 namespace {
@@ -17,6 +18,54 @@ glm::dvec3 SeedFlatNormal() {
 glm::dvec3 Albedo(const SquareScene& s) {
   glm::dvec3 raw(s.color[0] / 255.0, s.color[1] / 255.0, s.color[2] / 255.0);
   return s.look == Look::Seed ? raw : glm::dvec3(Decode(raw.x), Decode(raw.y), Decode(raw.z));
+}
+
+// docs/fur.md: white where the base does not count, the gradient, the darkening of wet fur.
+glm::dvec3 FurAlbedo(const SquareScene& s, double height) {
+  const FurParams& g = s.groom;
+  const glm::dvec3 base = glm::mix(glm::dvec3(1), Albedo(s), g.colorFromBase);
+  const glm::dvec3 rho = glm::clamp(base * glm::mix(g.rootColor, g.tipColor, height), 0.0, 1.0);
+  return glm::pow(rho, glm::dvec3(1 + g.wetness));
+}
+
+// docs/fur.md: a clump, written once more.
+struct Clumped {
+  double spread = 1, inside = 1;
+  glm::dvec2 lean{0};
+};
+
+uint32_t Scramble(uint32_t h) {
+  h = (h ^ (h >> 16)) * 0x7feb352du;
+  h = (h ^ (h >> 15)) * 0x846ca68bu;
+  return h ^ (h >> 16);
+}
+
+glm::dvec2 Site(int x, int y) {
+  const uint32_t h = Scramble(uint32_t(x) + Scramble(uint32_t(y)));
+  return glm::dvec2(x, y) + 0.25 + glm::dvec2(h & 0xffff, h >> 16) * (0.5 / 65536);
+}
+
+Clumped ClumpAt(const SquareScene& s, const glm::dvec3& ray, double h) {
+  const double clumping = std::max(s.groom.clumping, s.groom.wetness);
+  if (clumping == 0) return {};
+  const double length = s.coat.length * (1 - 0.35 * s.groom.wetness);
+  const glm::dvec3 at = s.eye + ray * ((h * length - s.eye.z) / ray.z);
+  const glm::dvec2 p = 4.0 * (s.tilesAtOrigin + s.tilesForX * at.x + s.tilesForY * at.y);
+  std::vector<glm::dvec2> sites;
+  for (int y = -2; y <= 2; ++y)  // wider than the shader looks
+    for (int x = -2; x <= 2; ++x) sites.push_back(Site(int(std::floor(p.x)) + x, int(std::floor(p.y)) + y));
+  const glm::dvec2 own = *std::min_element(sites.begin(), sites.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
+    return glm::length(a - p) < glm::length(b - p);
+  });
+  Clumped c;
+  c.spread = 1 / (1 - 0.75 * clumping * h * h);
+  const glm::dvec2 root = own + (p - own) * c.spread;
+  for (const glm::dvec2& other : sites)
+    if (other != own)
+      c.inside = std::min(c.inside, 1 + 8 * glm::dot(root - (own + other) / 2.0, glm::normalize(own - other)));
+  c.inside = std::max(c.inside, 0.0);
+  c.lean = (own - root) * glm::dvec2(1, -1) * (2 * 0.75 * clumping * h * 4 / 4.0);
+  return c;
 }
 
 // The strand's direction: the square's tangent frame is the world's.
@@ -44,10 +93,11 @@ glm::dvec3 CorrectShading(const SquareScene& s, const glm::dvec3& ray, const glm
   const double toLight = std::acos(glm::dot(strand, l)), toEye = std::acos(glm::dot(strand, -ray));
   const double wrapped = std::clamp((l.z + kWrap) / (1 + kWrap), 0.0, 1.0);
   // sin a sin b - cos a cos b = -cos(a + b)
-  const double lobe = std::pow(std::max(0.0, -std::cos(toLight + toEye)), s.coat.specularPower);
-  const glm::dvec3 direct =
-      Albedo(s) * s.light.diffuse * std::sin(toLight) + s.light.specular * (lobe * s.coat.specularScale);
-  return Albedo(s) * s.light.ambient + direct * (wrapped * glm::mix(s.coat.selfShadow, 1.0, height));
+  const double lobe = std::pow(std::max(0.0, -std::cos(toLight + toEye)), s.coat.specularPower * (1 + 2 * s.groom.wetness));
+  const glm::dvec3 rho = FurAlbedo(s, height);
+  const glm::dvec3 direct = rho * s.light.diffuse * std::sin(toLight) +
+                            s.light.specular * (lobe * s.coat.specularScale * (1 + 3 * s.groom.wetness));
+  return rho * s.light.ambient + direct * (wrapped * glm::mix(s.coat.selfShadow, 1.0, height));
 }
 
 double ShellOpacity(const SquareScene& s, const glm::dvec3& ray, uint32_t slice, double height) {
@@ -81,7 +131,8 @@ glm::dvec3 GlossySkinColor(const SquareScene& s, const glm::dvec3& ray, const gl
   const double diffuse = std::max(0.0, glm::dot(n, l));
   const bool shines = s.look == Look::Seed || diffuse > 0;
   const double highlight = shines ? std::pow(std::max(0.0, glm::dot(n, h)), power) : 0;
-  return Clamped(Albedo(s) * (s.light.ambient + s.light.diffuse * diffuse) + s.light.specular * gloss * highlight);
+  const glm::dvec3 rho = glm::pow(Albedo(s), glm::dvec3(1 + s.groom.wetness));
+  return Clamped(rho * (s.light.ambient + s.light.diffuse * diffuse) + s.light.specular * gloss * highlight);
 }
 
 glm::dvec3 SkinColor(const SquareScene& s, const glm::dvec3& ray) {
@@ -110,10 +161,12 @@ glm::dvec4 MidpointShell(const SquareScene& s, const glm::dvec3& ray, uint32_t s
     texel += glm::dvec4(t[0], t[1], t[2], emptied ? 0 : t[3]) / 255.0 * weight;
   }
   const double falloff = s.look == Look::Seed ? 1 : 0;
-  const double coverage = std::min(texel.w * (1 - falloff * z / slices), 0.999);
-  double exponent = slices / s.shells;
+  const Clumped clump = ClumpAt(s, ray, h);
+  const double coverage = std::min(texel.w * (1 - falloff * z / slices), 0.999) * clump.inside;
+  double exponent = slices / s.shells * s.groom.density * clump.spread * clump.spread;
   if (s.semantics == Semantics::Volume) exponent /= std::max(std::abs(ray.z), 0.25 / std::sqrt(double(s.shells)));
-  const glm::dvec3 t = glm::dvec3(texel) * 2.0 - 1.0;
+  glm::dvec3 t = glm::dvec3(texel) * 2.0 - 1.0;
+  t = t + glm::dvec3(clump.lean * t.z, 0);
   const glm::dmat3 frame(s.tangent, glm::cross(glm::dvec3(0, 0, 1), s.tangent), glm::dvec3(0, 0, 1));
   const glm::dvec3 strand = glm::length(t) < 1.0 / 64 ? glm::dvec3(0, 0, 1) : glm::normalize(frame * t);
   const glm::dvec3 color = s.look == Look::Seed ? SeedShading(s, ray, strand, std::max(h - 0.5 / slices, 0.0))

@@ -22,6 +22,10 @@ struct SquareScene {
   Coat coat;
   uint32_t shells = 16;
   glm::dvec3 tangent{1, 0, 0};  // x axis of the packed strands; z is +Z
+  // Of a groomed coat: its density, colours, clumping and wetness, and where its clumps are.
+  FurParams groom;
+  glm::dvec3 eye{0};
+  glm::dvec2 tilesAtOrigin{0}, tilesForX{0}, tilesForY{0};  // of the volume, for a unit along an axis
 };
 
 // The way from the eye through the middle of a pixel, unit.

@@ -23,4 +23,8 @@ struct LoadOptions {
 // never a crash.
 Result<Model> LoadGltf(const std::filesystem::path& file, const LoadOptions& options = {});
 
+// Applies the fur file and the flags to a model that a program made and gave its coats: those count as the coats' own
+// parameters.
+Result<Done> GroomModel(const LoadOptions& options, Model* model);
+
 }  // namespace fur

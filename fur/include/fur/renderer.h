@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "fur/float_image.h"
@@ -80,8 +81,10 @@ struct RenderSettings {
   double finOpacity = 0.9;     // of a fin on the silhouette, 0..1
   bool backFaces = true;       // fur behind the outline, where the skin can be missed
   bool sortAnimals = true;     // back to front
-  glm::dvec3 comb{0};          // offset of the tips relative to the fur's length, in the model's axes
-  double bend = 2;             // exponent of the height in that offset, >= 1
+  std::optional<glm::dvec3> comb;  // instead of the coats' own: offset of the tips relative to the fur's length, in the
+                                   // model's axes
+  std::optional<double> bend;      // instead of the coats' own: exponent of the height in that offset, >= 1
+  double time = 0;                 // seconds; where the wind is
   double spacing = 0;          // distance of two shells in the primitive's units: the length is N times it; 0: the
                                // preset's, or the coat's
 };
@@ -96,12 +99,20 @@ struct FrameCounts {
   uint64_t skippedAnimals = 0, skippedEdges = 0, skippedShells = 0;
 };
 
+// What moves between two frames.
+struct Motion {
+  double time = 0;                        // seconds, added to the settings'
+  std::span<const glm::dvec3> offsets;    // of each animal's tips by inertia (fur/inertia.h): world axes, in fur lengths;
+                                          // animals beyond its end have none. Technique shells, and presets with a comb
+};
+
 class Renderer {
  public:
   virtual ~Renderer() = default;
 
   // Records and submits one frame into the renderer's own target; does not wait.
-  virtual void Draw(const Camera&, std::span<const glm::dmat4> placements) = 0;
+  virtual void Draw(const Camera&, std::span<const glm::dmat4> placements, const Motion&) = 0;
+  void Draw(const Camera& camera, std::span<const glm::dmat4> placements) { Draw(camera, placements, Motion{}); }
   // Waits for the GPU. RenderFailed when the driver failed.
   virtual Result<Done> Finish() = 0;
   // The last frame, alpha 1: as stored, so sRGB-encoded for look correct.
