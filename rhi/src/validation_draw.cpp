@@ -273,8 +273,7 @@ bool Context::CheckDispatch(const char* call) {
 }
 
 void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
-  if (!CheckDispatch("Dispatch")) return;
-  if (Is(backend::CheckGroups(x, y, z), nullptr)) return;
+  if (Is(backend::CheckGroups(x, y, z), nullptr) || !CheckDispatch("Dispatch")) return;
   CountWork();
   inner_.Dispatch(x, y, z);
 }

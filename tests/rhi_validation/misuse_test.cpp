@@ -73,8 +73,8 @@ struct Objects {
     SetTarget(viewports), SetShaders();
     c.IASetInputLayout(layout.get());
   }
-  // Draws with a view in t0, where the shader reads a Texture2D of floats; all else is in order.
-  void DrawWith(IResource* resource) {
+  // Everything that the shaders read; they want a Texture2D of floats.
+  void SetAll(IResource* resource) {
     Ref<IShaderResourceView> view;
     EXPECT_EQ(d.CreateShaderResourceView(resource, nullptr, &view), Status::Ok);
     IBuffer *vertices = plain.get(), *tint = constants.get();
@@ -87,7 +87,6 @@ struct Objects {
     c.SetConstantBuffers(3, 1, &tint);
     c.PSSetShaderResources(0, 1, &shown);
     c.PSSetSamplers(0, 1, &smooth);
-    c.Draw(3, 0);
   }
 };
 
@@ -237,18 +236,19 @@ std::vector<MisuseCase> Cases() {
        [](O& o) { o.SetShaders(), o.c.IASetInputLayout(o.layout.get()), o.c.DrawIndexed(3, 0, 0); }, false},
       {"DrawWithoutViewportAndIndices", NothingBound,
        [](O& o) { o.SetDraw(0), o.c.DrawIndexedInstanced(3, 1, 0, 0, 0); }, false},
-      {"DrawWithoutIndices", IndexBufferMissing, [](O& o) { o.SetDraw(), o.c.DrawIndexed(3, 0, 0); }, false},
+      {"DrawWithoutIndices", IndexBufferMissing, [](O& o) { o.SetAll(o.other.get()), o.c.DrawIndexed(3, 0, 0); },
+       false},
       {"IndirectWithoutIndices", IndexBufferMissing,
-       [](O& o) { o.SetDraw(), o.c.DrawIndexedInstancedIndirect(o.small.get(), 0); }, false},
+       [](O& o) { o.SetAll(o.other.get()), o.c.DrawIndexedInstancedIndirect(o.small.get(), 0); }, false},
       {"IndirectIndexedOfNull", WrongBindFlag, [](O& o) { o.c.DrawIndexedInstancedIndirect(nullptr, 0); }, false},
       {"IndirectIndexedBeyond", OutOfBounds, [](O& o) { o.c.DrawIndexedInstancedIndirect(o.small.get(), 16); }, false},
       {"DispatchIndirectOfNull", WrongBindFlag, [](O& o) { o.c.DispatchIndirect(nullptr, 0); }, false},
       {"DispatchIndirectBeyond", OutOfBounds, [](O& o) { o.c.DispatchIndirect(o.small.get(), 24); }, false},
       {"DispatchIndirectWithoutShader", NothingBound, [](O& o) { o.c.DispatchIndirect(o.small.get(), 0); }, false},
       {"DispatchOfTooMany", OutOfBounds, [](O& o) { o.c.Dispatch(1, 65536, 1); }, false},
-      {"ViewOfOtherDimension", ViewMismatch, [](O& o) { o.DrawWith(o.cube.get()); }, false},
-      {"ViewOfOtherTexels", ViewMismatch, [](O& o) { o.DrawWith(o.words.get()); }, false},
-      {"ViewOfBuffer", ViewMismatch, [](O& o) { o.DrawWith(o.items.get()); }, false},
+      {"ViewOfOtherDimension", ViewMismatch, [](O& o) { o.SetAll(o.cube.get()), o.c.Draw(3, 0); }, false},
+      {"ViewOfOtherTexels", ViewMismatch, [](O& o) { o.SetAll(o.words.get()), o.c.Draw(3, 0); }, false},
+      {"ViewOfBuffer", ViewMismatch, [](O& o) { o.SetAll(o.items.get()), o.c.Draw(3, 0); }, false},
       {"IndirectOfNull", WrongBindFlag, [](O& o) { o.c.DrawInstancedIndirect(nullptr, 0); }, false},
       {"IndirectWithoutFlag", WrongBindFlag, [](O& o) { o.c.DrawInstancedIndirect(o.plain.get(), 0); }, false},
       {"IndirectBeyond", OutOfBounds, [](O& o) { o.c.DrawInstancedIndirect(o.small.get(), 20); }, false},

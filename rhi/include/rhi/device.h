@@ -193,8 +193,8 @@ class IContext {
   virtual void UpdateSubresource(IResource*, uint32_t subresource, const Box*, const void* data, uint32_t rowPitch,
                                  uint32_t slicePitch) = 0;
   // Two buffers, or two textures of one format (or sRGB twins) and sample count (FormatMismatch), to Default or Staging
-  // (ImmutableWrite, MapMode). CopyResource: everything, sizes and mips equal (FormatMismatch). CopySubresourceRegion: a
-  // box of the source (null: all) to x, y, z of the destination, in texels, whole 4x4 blocks of BC formats; buffers:
+  // (ImmutableWrite, MapMode). CopyResource: everything, sizes and mips equal (FormatMismatch). CopySubresourceRegion:
+  // a box of the source (null: all) to x, y, z of the destination, in texels, whole 4x4 blocks of BC formats; buffers:
   // bytes, in x and the box's left and right. Slices of arrays, faces of cubes and depth slices of volumes may be
   // mixed. Beyond an edge, right before left, or onto itself (one subresource of a texture, overlapping bytes of a
   // buffer): OutOfBounds; no such subresource: SubresourceOutOfRange. Empty boxes, here and above: nothing happens.
