@@ -90,6 +90,13 @@ TextureDim ShownDim(const TextureDesc& d, const ViewDesc& v, bool written) {
   return d.dim == TextureDim::TexCube && (written || v.sliceCount != 6) ? TextureDim::Tex2DArray : d.dim;
 }
 
+bool ShowsAs(const TextureDesc* texture, const ViewDesc& v, const ShaderResource& declared, bool written) {
+  const bool wantsTexture =
+      declared.kind == ShaderResourceKind::Texture || declared.kind == ShaderResourceKind::RWTexture;
+  if (!texture || !wantsTexture) return !texture && !wantsTexture;
+  return ShownDim(*texture, v, written) == declared.dim && GetFormatInfo(v.format).isInteger == declared.integer;
+}
+
 uint32_t SliceCount(const TextureDesc& d) { return d.dim == TextureDim::Tex3D ? 1 : d.depthOrArray; }
 uint32_t MipSize(uint32_t size, uint32_t mip) { return std::max(1u, mip < 32 ? size >> mip : 0u); }
 

@@ -240,4 +240,48 @@ Misuse CheckResolve(const TexturePlace& dst, const TexturePlace& src, Format for
                to.width, to.height);
 }
 
+Misuse CheckGenerateMips(const TextureDesc& d, Format view, FormatSupport support) {
+  if (!(d.bind & Bind::RenderTarget) || !(d.bind & Bind::ShaderResource))
+    return Wrong(MsgCode::WrongBindFlag,
+                 "GenerateMips: the texture was made with flags 0x%X; it needs Bind::RenderTarget and ShaderResource",
+                 uint32_t(d.bind));
+  if (view != d.format)
+    return Wrong(MsgCode::FormatMismatch,
+                 "GenerateMips of a view as %s of a texture of %s; take a view of the texture's own format",
+                 ToString(view), ToString(d.format));
+  if (d.sampleCount > 1)
+    return Wrong(MsgCode::FormatMismatch, "GenerateMips of %u samples, which have one mip", d.sampleCount);
+  if (support & FormatSupport::MipAutogen) return {};
+  return Wrong(MsgCode::CapMissing, "GenerateMips: %s has no FormatSupport::MipAutogen on this adapter",
+               ToString(d.format));
+}
+
+// ----------------------------------------------------------------------------------------------------------- read-back
+
+Misuse CheckReadBack(const BufferDesc* d, uint32_t offset, uint32_t size, const void* out) {
+  if (!d || !out) return Wrong(MsgCode::InvalidDesc, "ReadBack: the buffer, or the memory for the result, is null");
+  if (uint64_t(offset) + size <= d->byteWidth) return {};
+  return Wrong(MsgCode::OutOfBounds, "ReadBack of %u bytes at %u of a buffer of %u", size, offset, d->byteWidth);
+}
+
+Misuse CheckReadBack(const TextureDesc* d, uint32_t subresource, const void* out, size_t capacity, uint32_t rowPitch) {
+  if (!d || !out) return Wrong(MsgCode::InvalidDesc, "ReadBack: the texture, or the memory for the result, is null");
+  if (Misuse m = CheckSubresource("ReadBack", *d, subresource)) return m;
+  if (d->sampleCount > 1)
+    return Wrong(MsgCode::FormatMismatch, "ReadBack of a texture of %u samples; resolve it first", d->sampleCount);
+  const MipLayout m = GetMipLayout(*d, subresource % d->mipLevels);
+  const uint64_t pitch = rowPitch ? rowPitch : m.rowBytes, rows = uint64_t(m.rows) * m.depth;
+  if (pitch >= m.rowBytes && (rows - 1) * pitch + m.rowBytes <= capacity) return {};
+  return Wrong(MsgCode::OutOfBounds, "ReadBack of %llu rows of %u bytes into %zu bytes with a rowPitch of %llu",
+               static_cast<unsigned long long>(rows), m.rowBytes, capacity, static_cast<unsigned long long>(pitch));
+}
+
+// ---------------------------------------------------------------------------------------------------------- dispatches
+
+Misuse CheckGroups(uint32_t x, uint32_t y, uint32_t z) {
+  constexpr uint32_t kMax = 65535;  // D3D11_CS_DISPATCH_MAX_THREAD_GROUPS_PER_DIMENSION
+  if (x <= kMax && y <= kMax && z <= kMax) return {};
+  return Wrong(MsgCode::OutOfBounds, "Dispatch of %u x %u x %u groups; each number is at most %u", x, y, z, kMax);
+}
+
 }  // namespace rhi::backend

@@ -20,6 +20,7 @@ class Context final : public backend::ContextBase {
                              IResource* src, uint32_t srcSubresource, const Box*) override;
   void ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITexture* src, uint32_t srcSubresource,
                           Format) override;
+  void GenerateMips(IShaderResourceView*) override;
   Status ReadBack(ITexture*, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch);
   Status ReadBack(IBuffer*, uint32_t offset, uint32_t size, void* out);
 
@@ -27,7 +28,6 @@ class Context final : public backend::ContextBase {
   void ClearRenderTargetView(IRenderTargetView*, const float rgba[4]) override;
   void ClearDepthStencilView(IDepthStencilView*, bool clearDepth, float depth, bool clearStencil,
                              uint8_t stencil) override;
-  void GenerateMips(IShaderResourceView*) override {}
   void Draw(uint32_t, uint32_t) override { ++stats_.draws; }
   void DrawIndexed(uint32_t, uint32_t, int32_t) override { ++stats_.draws; }
   void DrawInstanced(uint32_t, uint32_t, uint32_t, uint32_t) override { ++stats_.draws; }

@@ -192,21 +192,25 @@ void Context::ResolveSubresource(ITexture* dst, uint32_t dstSubresource, ITextur
   if (!misuse.Refuses(log_, to.Desc().name)) to.texels[dstSubresource] = from.texels[srcSubresource];
 }
 
+// Nothing is made; only the arguments are checked.
+void Context::GenerateMips(IShaderResourceView* view) {
+  const Texture* t = view ? AsTexture(view->Resource()) : nullptr;
+  if (!t) {
+    Refuse(MsgCode::InvalidDesc, "", "GenerateMips needs a view of a texture; the call is ignored");
+    return;
+  }
+  const FormatSupport support = device_.CheckFormatSupport(t->Desc().format);
+  CheckGenerateMips(t->Desc(), view->Desc().format, support).Refuses(log_, t->Desc().name);
+}
+
 // ----------------------------------------------------------------------------------------------------------- read-back
 
 Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch) {
   Texture* t = AsTexture(texture);
-  if (!t) return Refuse(MsgCode::InvalidDesc, "", "ReadBack: the texture is null");
-  if (subresource >= t->SubresourceCount())
-    return Refuse(MsgCode::SubresourceOutOfRange, t->Desc().name, "ReadBack: the subresource does not exist");
-  if (t->Desc().sampleCount > 1)
-    return Refuse(MsgCode::FormatMismatch, t->Desc().name, "ReadBack of a multisampled texture; resolve it first");
+  const Misuse misuse = CheckReadBack(t ? &t->Desc() : nullptr, subresource, out, capacity, rowPitch);
+  if (misuse.Refuses(log_, t ? t->Desc().name : "")) return Status::InvalidArg;
   const MipLayout m = t->Layout(subresource);
   if (rowPitch == 0) rowPitch = m.rowBytes;
-  const uint64_t rows = uint64_t(m.rows) * m.depth;
-  if (rowPitch < m.rowBytes || (rows - 1) * rowPitch + m.rowBytes > capacity)
-    return Refuse(MsgCode::OutOfBounds, t->Desc().name,
-                  "ReadBack needs room for all rows, and a rowPitch that holds one");
   CopyRows({static_cast<std::byte*>(out), rowPitch, uint64_t(rowPitch) * m.rows}, RowsAt(*t, subresource, 0, 0, 0),
            Whole(m), t->Desc().format);
   return Status::Ok;
@@ -214,9 +218,8 @@ Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, siz
 
 Status Context::ReadBack(IBuffer* buffer, uint32_t offset, uint32_t size, void* out) {
   const Buffer* b = AsBuffer(buffer);
-  if (!b) return Refuse(MsgCode::InvalidDesc, "", "ReadBack: the buffer is null");
-  if (uint64_t(offset) + size > b->bytes.size())
-    return Refuse(MsgCode::OutOfBounds, b->Desc().name, "ReadBack beyond the end of the buffer");
+  const Misuse misuse = CheckReadBack(b ? &b->Desc() : nullptr, offset, size, out);
+  if (misuse.Refuses(log_, b ? b->Desc().name : "")) return Status::InvalidArg;
   std::memcpy(out, b->bytes.data() + offset, size);
   return Status::Ok;
 }

@@ -96,7 +96,8 @@ class Device final : public backend::Object<IDevice> {
   }
 
   Status PrecachePipeline(const PipelineKeyDesc& d) override {
-    return d.vs ? Status::Ok : Fail(MsgCode::NoVertexShader, "", "PrecachePipeline needs a vertex shader");
+    if (d.vs && d.rtvCount <= kMaxRenderTargets) return Status::Ok;
+    return Fail(MsgCode::NoVertexShader, "", "PrecachePipeline needs a vertex shader, and at most 8 targets");
   }
   size_t GetPipelineCacheBlob(void*, size_t) override { return 0; }
   IContext* ImmediateContext() override { return &context_; }

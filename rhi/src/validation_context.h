@@ -104,7 +104,8 @@ class Context final : public backend::ContextBase {
   bool CheckPair(const char* call, IResource* dst, IResource* src);
 
   bool CheckDraw(const char* call, bool indexed);
-  bool CheckShaders(const char* call);
+  bool CheckVertexShader(const char* call);
+  bool CheckTopology(const char* call);
   bool CheckTargets(const char* call);
   void CheckViewports(const char* call, uint32_t width, uint32_t height);
   bool CheckLayout(const char* call);

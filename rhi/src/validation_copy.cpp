@@ -76,26 +76,8 @@ void Context::GenerateMips(IShaderResourceView* view) {
     return;
   }
   const TextureDesc& d = static_cast<ITexture*>(resource)->Desc();
-  if (!(d.bind & Bind::RenderTarget) || !(d.bind & Bind::ShaderResource)) {
-    v_.Error(MsgCode::WrongBindFlag, view,
-             "%s: the texture was made with flags 0x%X; it needs Bind::RenderTarget and ShaderResource; the call is "
-             "ignored",
-             kCall, uint32_t(d.bind));
-    return;
-  }
-  if (view->Desc().format != d.format) {
-    v_.Error(MsgCode::FormatMismatch, view,
-             "%s of a view as %s of a texture of %s; take a view of the texture's own format; the call is ignored", kCall,
-             ToString(view->Desc().format), ToString(d.format));
-    return;
-  }
-  if (!(device_.CheckFormatSupport(d.format) & FormatSupport::MipAutogen) || d.sampleCount > 1) {
-    v_.Error(MsgCode::FormatMismatch, view,
-             "%s: %s of %u samples cannot be filtered; see FormatSupport::MipAutogen; the call is ignored", kCall,
-             rhi::ToString(d.format), d.sampleCount);
-    return;
-  }
-  inner_.GenerateMips(view);
+  if (!Is(backend::CheckGenerateMips(d, view->Desc().format, device_.CheckFormatSupport(d.format)), view))
+    inner_.GenerateMips(view);
 }
 
 }  // namespace rhi::validation

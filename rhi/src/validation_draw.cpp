@@ -6,8 +6,6 @@
 namespace rhi::validation {
 namespace {
 
-constexpr uint32_t kMaxGroups = 65535;  // D3D11_CS_DISPATCH_MAX_THREAD_GROUPS_PER_DIMENSION
-
 // The topology that a geometry shader sees: strips are cut into their primitives.
 PrimitiveTopology ListOf(PrimitiveTopology topology) {
   switch (topology) {
@@ -43,11 +41,14 @@ const ShaderInput* FindInput(const ObjectRecord& layout, const ShaderInput& want
 
 // -------------------------------------------------------------------------------------------------------------- state
 
-bool Context::CheckShaders(const char* call) {
-  const IShader *vs = state_.shaders[size_t(Stage::Vertex)].get(), *gs = state_.shaders[size_t(Stage::Geometry)].get();
-  if (!vs)
-    return v_.Error(MsgCode::NoVertexShader, {nullptr, call},
-                    "%s without a vertex shader; call VSSetShader; it is skipped", call);
+bool Context::CheckVertexShader(const char* call) {
+  return state_.shaders[size_t(Stage::Vertex)] ||
+         v_.Error(MsgCode::NoVertexShader, {nullptr, call},
+                  "%s without a vertex shader; call VSSetShader; it is skipped", call);
+}
+
+bool Context::CheckTopology(const char* call) {
+  const IShader* gs = state_.shaders[size_t(Stage::Geometry)].get();
   if (!gs) return true;
   const PrimitiveTopology wanted = v_.objects.Find(gs)->shader.gsInput;
   return ListOf(state_.topology) == wanted ||
@@ -184,7 +185,7 @@ bool Context::CheckBoundMapped(const char* call, bool indexed, bool compute) {
 }
 
 bool Context::CheckDraw(const char* call, bool indexed) {
-  if (!CheckShaders(call) || !CheckTargets(call) || !CheckLayout(call)) return false;
+  if (!CheckVertexShader(call) || !CheckLayout(call) || !CheckTopology(call) || !CheckTargets(call)) return false;
   if (indexed && !state_.indexBuffer)
     return v_.Error(MsgCode::IndexBufferMissing, {nullptr, call},
                     "%s without an index buffer; call IASetIndexBuffer; it is skipped", call);
@@ -272,12 +273,7 @@ bool Context::CheckDispatch(const char* call) {
 }
 
 void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
-  if (!CheckDispatch("Dispatch")) return;
-  if (x > kMaxGroups || y > kMaxGroups || z > kMaxGroups) {
-    v_.Error(MsgCode::OutOfBounds, {nullptr, "Dispatch"},
-             "Dispatch of %u x %u x %u groups; each number is at most %u; it is skipped", x, y, z, kMaxGroups);
-    return;
-  }
+  if (Is(backend::CheckGroups(x, y, z), nullptr) || !CheckDispatch("Dispatch")) return;
   CountWork();
   inner_.Dispatch(x, y, z);
 }

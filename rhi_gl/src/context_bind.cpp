@@ -21,6 +21,10 @@ GLuint MakeZeroTexture(TextureDim dim, bool integer) {
   return name;
 }
 
+bool Fits(const ViewData& view, const ShaderResource& declared, bool written) {
+  return backend::ShowsAs(view.texture ? &view.texture->Desc() : nullptr, view.desc, declared, written);
+}
+
 }  // namespace
 
 void Context::SetConstantBuffers(uint32_t first, uint32_t count, IBuffer* const* buffers) {
@@ -67,7 +71,7 @@ void Context::BindPair(uint32_t unit, Stage stage, const Shader& shader, uint32_
   const ShaderTexturePair slots = shader.reflection.pairs[pair];
   const ShaderResource& declared = *shader.pairs[pair];
   const auto* view = static_cast<const ShaderResourceView*>(state_.resources[size_t(stage)][slots.texture].get());
-  if (view && view->target == TargetOf(declared.dim)) {
+  if (view && Fits(*view, declared, false)) {
     gl_.UseTexture(unit, view->uid, view->name);
   } else {
     ReportUnbound(stage, declared, view != nullptr);
@@ -84,8 +88,8 @@ void Context::BindPair(uint32_t unit, Stage stage, const Shader& shader, uint32_
 void Context::ReportUnbound(Stage stage, const ShaderResource& declared, bool other) {
   if (other) {
     ReportOnce(Severity::Error, MsgCode::ViewMismatch,
-               "%s t%u: the view is of another kind than the shader's %s; it reads 0", ToString(stage), declared.slot,
-               declared.name);
+               "%s t%u: the view is of another kind, dimension or type of texels than the shader's %s; it reads 0",
+               ToString(stage), declared.slot, declared.name);
   } else {
     ReportOnce(Severity::Warning, MsgCode::NothingBound,
                "%s t%u: nothing is bound where the shader reads %s; it reads 0", ToString(stage), declared.slot,
@@ -119,11 +123,17 @@ void Context::BindUavs(const Shader& shader) {
   for (const ShaderResource* declared : shader.writable) {
     const auto* view = static_cast<const UnorderedAccessView*>(state_.uavs[declared->slot].get());
     const bool wantsBuffer = declared->kind == ShaderResourceKind::RWStructuredBuffer;
-    if (view && (view->buffer != nullptr) != wantsBuffer) view = nullptr;
-    if (!view)
-      ReportOnce(Severity::Warning, MsgCode::NothingBound,
-                 "u%u: nothing that fits is bound where the shader uses %s; it reads 0 and writes are dropped",
+    if (view && !Fits(*view, *declared, true)) {
+      ReportOnce(Severity::Error, MsgCode::ViewMismatch,
+                 "u%u: the view is of another kind, dimension or type of texels than the shader's %s; it reads 0 and "
+                 "writes are dropped",
                  declared->slot, declared->name);
+      view = nullptr;
+    } else if (!view) {
+      ReportOnce(Severity::Warning, MsgCode::NothingBound,
+                 "u%u: nothing is bound where the shader uses %s; it reads 0 and writes are dropped", declared->slot,
+                 declared->name);
+    }
     if (wantsBuffer) {
       BindUavBuffer(declared->slot, view);
     } else {

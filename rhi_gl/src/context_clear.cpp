@@ -111,15 +111,9 @@ void Context::GenerateMips(IShaderResourceView* target) {
   const auto* view = static_cast<const ShaderResourceView*>(target);
   if (!view || !view->texture) return Refuse(MsgCode::InvalidDesc, "", "GenerateMips", "it needs a view of a texture");
   const TextureDesc& desc = view->texture->Desc();
-  if (!(desc.bind & Bind::RenderTarget))
-    return Refuse(MsgCode::WrongBindFlag, desc.name, "GenerateMips", "the texture needs Bind::RenderTarget");
-  if (view->desc.format != desc.format)
-    return Refuse(MsgCode::FormatMismatch, desc.name, "GenerateMips",
-                  "it takes a view of the texture's own format, not of its sRGB twin");
-  if (!(QueryFormatSupport(desc.format, core_.caps) & FormatSupport::MipAutogen))
-    return Refuse(MsgCode::CapMissing, desc.name, "GenerateMips",
-                  "this format has no FormatSupport::MipAutogen on this adapter");
-  if (!OpenGates()) return;
+  if (!Enter()) return;
+  const Misuse misuse = CheckGenerateMips(desc, view->desc.format, QueryFormatSupport(desc.format, core_.caps));
+  if (misuse.Refuses(log_, desc.name) || !OpenGates()) return;
   if (desc.dim == TextureDim::Tex3D) {
     glGenerateTextureMipmap(view->name);  // slices of a Tex3D are filtered too, which a blit cannot
     return;

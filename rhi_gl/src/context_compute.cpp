@@ -1,4 +1,5 @@
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_gl {
 
@@ -40,7 +41,7 @@ void Context::FinishDispatch() {
 }
 
 void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
-  if (!PrepareDispatch()) return;
+  if (CheckGroups(x, y, z).Refuses(log_, "") || !PrepareDispatch()) return;
   glDispatchCompute(x, y, z);
   FinishDispatch();
 }

@@ -125,13 +125,6 @@ void Context::Unmap(IResource* resource, uint32_t subresource) {
 
 namespace {
 
-const char* WhyNotRead(const Texture& t, uint32_t subresource, size_t capacity, uint32_t rowPitch) {
-  const MipLayout m = t.Layout(subresource);
-  if (rowPitch < m.rowBytes) return "rowPitch is less than a row";
-  const uint64_t rows = uint64_t(m.rows) * m.depth;
-  return (rows - 1) * rowPitch + m.rowBytes > capacity ? "the capacity is too small" : nullptr;
-}
-
 void CopyStagingRows(const Texture& t, uint32_t subresource, std::byte* out, uint32_t rowPitch) {
   const MipLayout m = t.Layout(subresource);
   const std::byte* from = t.stagingData + t.StagingOffset(subresource);
@@ -143,18 +136,9 @@ void CopyStagingRows(const Texture& t, uint32_t subresource, std::byte* out, uin
 
 Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch) {
   const Texture* t = AsTexture(texture);
-  if (t && rowPitch == 0 && subresource < t->SubresourceCount()) rowPitch = t->Layout(subresource).rowBytes;
-  const auto refuse = [&](MsgCode code, const char* why) {
-    Refuse(code, t ? t->Desc().name : "", "ReadBack", why);
-    return Status::InvalidArg;
-  };
-  if (!t) return refuse(MsgCode::InvalidDesc, "the texture is null");
-  if (subresource >= t->SubresourceCount())
-    return refuse(MsgCode::SubresourceOutOfRange, "the subresource does not exist");
-  if (t->Desc().sampleCount > 1)
-    return refuse(MsgCode::FormatMismatch, "a multisampled texture must be resolved first");
-  if (const char* why = out ? WhyNotRead(*t, subresource, capacity, rowPitch) : "there is nowhere to write it")
-    return refuse(MsgCode::OutOfBounds, why);
+  const Misuse misuse = CheckReadBack(t ? &t->Desc() : nullptr, subresource, out, capacity, rowPitch);
+  if (misuse.Refuses(log_, t ? t->Desc().name : "")) return Status::InvalidArg;
+  if (rowPitch == 0) rowPitch = t->Layout(subresource).rowBytes;
   if (!Settle()) return Status::DeviceLost;
   if (Status s = FinishAll(); s != Status::Ok) return s;
   if (t->IsStaging()) {
@@ -169,11 +153,8 @@ Status Context::ReadBack(ITexture* texture, uint32_t subresource, void* out, siz
 
 Status Context::ReadBack(IBuffer* buffer, uint32_t offset, uint32_t size, void* out) {
   const Buffer* b = AsBuffer(buffer);
-  if (!b || !out || offset > b->Desc().byteWidth || size > b->Desc().byteWidth - offset) {
-    Refuse(b ? MsgCode::OutOfBounds : MsgCode::InvalidDesc, b ? b->Desc().name : "", "ReadBack",
-           b ? "it reaches beyond the end, or there is nowhere to write it" : "the buffer is null");
-    return Status::InvalidArg;
-  }
+  const Misuse misuse = CheckReadBack(b ? &b->Desc() : nullptr, offset, size, out);
+  if (misuse.Refuses(log_, b ? b->Desc().name : "")) return Status::InvalidArg;
   if (!Settle()) return Status::DeviceLost;
   if (Status s = FinishAll(); s != Status::Ok) return s;
   glGetNamedBufferSubData(b->name, GLintptr(uint64_t(b->offset) + offset), size, out);

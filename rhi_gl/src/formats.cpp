@@ -133,10 +133,6 @@ FormatSupport QueryFormatSupport(Format format, const rhi::Caps& caps) {
   return s | TargetSupport(format, internal);
 }
 
-void DepthStencilToGl(void* texels, uint64_t count) {
-  ForEachWord(texels, count, [](uint32_t w) { return std::rotl(w, 8); });
-}
-
 void DepthStencilFromGl(void* texels, uint64_t count) {
   ForEachWord(texels, count, [](uint32_t w) { return std::rotr(w, 8); });
 }

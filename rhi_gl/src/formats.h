@@ -25,7 +25,6 @@ rhi::FormatSupport QueryFormatSupport(rhi::Format, const rhi::Caps&);
 bool SupportsSamples(rhi::Format, uint32_t samples);
 
 // GL puts the depth of D24_UNorm_S8_UInt in the upper bits, Direct3D in the lower ones.
-void DepthStencilToGl(void* texels, uint64_t count);
 void DepthStencilFromGl(void* texels, uint64_t count);
 
 GLenum TargetOf(rhi::TextureDim);  // the texture target of a dimension

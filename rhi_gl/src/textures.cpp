@@ -89,7 +89,6 @@ bool Texture::AllocateStaging(const SubresourceData* init) {
 void Texture::UploadAll(const SubresourceData* init) {
   for (uint32_t i = 0; i < SubresourceCount(); ++i) {
     const SubresourceData& from = init[i];
-    if (!from.data) continue;
     if (!IsStaging()) {
       TexelBlock block;
       MakeBlock(desc_, MipOf(i), SliceOf(i), nullptr, &block);

@@ -77,10 +77,9 @@ void CopyRows(std::byte* to, uint64_t toRow, uint64_t toSlice, const std::byte* 
       std::memcpy(to + z * toSlice + y * toRow, from + z * fromSlice + y * fromRow, rowBytes);
 }
 
-// Whether GL can express the pitches, and the texels need no change on their way.
+// Whether GL can express the pitches.
 bool GlUnderstands(Format format, uint32_t rowPitch, uint32_t slicePitch) {
-  return rowPitch % GetFormatInfo(format).blockBytes == 0 && slicePitch % rowPitch == 0 &&
-         format != Format::D24_UNorm_S8_UInt;
+  return rowPitch % GetFormatInfo(format).blockBytes == 0 && slicePitch % rowPitch == 0;
 }
 
 void DefaultPitches(Format format, const TexelBlock& b, uint32_t* rowPitch, uint32_t* slicePitch) {
@@ -119,7 +118,6 @@ void Upload(const Texture& texture, const TexelBlock& b, const void* data, uint3
     tight.resize(TightBytes(format, b));
     CopyRows(tight.data(), rowBytes, uint64_t(rowBytes) * rows, static_cast<const std::byte*>(data), rowPitch,
              slicePitch, rowBytes, rows, b.depth);
-    if (format == Format::D24_UNorm_S8_UInt) DepthStencilToGl(tight.data(), tight.size() / 4);
     data = tight.data();
     rowPitch = rowBytes;
     slicePitch = rowBytes * rows;

@@ -68,6 +68,7 @@ Status Buffer::Create() {
   if (desc_.usage == Usage::Dynamic) {
     alignedWidth = AlignUp(desc_.byteWidth, core_->ring->Alignment());
     dirtyOnDiscard = DirtyBitsOf(desc_.bind);
+    core_->SpeakAgain();
     if (!core_->ring->Take(alignedWidth, &slice)) return core_->Failure();
     core_->ring->Repin(nullptr, slice.page);
     std::memset(slice.Data(), 0, desc_.byteWidth);

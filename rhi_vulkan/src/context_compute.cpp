@@ -1,10 +1,11 @@
 // Dispatches. They are few, so nothing is remembered from one to the next.
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_vulkan {
 
 void Context::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
-  if (x == 0 || y == 0 || z == 0 || !PrepareDispatch()) return;
+  if (backend::CheckGroups(x, y, z).Refuses(log_, "") || !PrepareDispatch()) return;
   vk_.vkCmdDispatch(cmd_, x, y, z);
   EndDispatch();
 }
@@ -32,10 +33,11 @@ bool Context::PrepareDispatch() {
     auto* view = writable ? static_cast<UavView*>(state_.uavs[r.slot].get()) : nullptr;
     if (view && view->texture) Use(*view->texture, view->Range(), kStorageWrite);
     if (view && view->buffer) Use(*view->buffer, kStorageWrite);
-    if (view || r.kind != ShaderResourceKind::RWTexture || core_->adapter.features.nullDescriptor) continue;
-    Report(
-        Severity::Error, MsgCode::NothingBound, r.name,
-        "nothing is bound to a RWTexture register, and this driver has no null descriptors; the dispatch is skipped");
+    if (r.kind != ShaderResourceKind::RWTexture || core_->adapter.features.nullDescriptor) continue;
+    if (view && Fits(*view, r)) continue;
+    Report(Severity::Error, view ? MsgCode::ViewMismatch : MsgCode::NothingBound, r.name,
+           "nothing that fits is bound to a RWTexture register, and this driver has no null descriptors; the dispatch "
+           "is skipped");
     return false;
   }
   for (const Ref<IBuffer>& constants : state_.constants)

@@ -191,16 +191,8 @@ void Context::GenerateMips(IShaderResourceView* target) {
   if (!view || !view->texture)
     return Complain(MsgCode::InvalidDesc, "", "GenerateMips needs a view of a texture; the call is ignored");
   Texture& t = *view->texture;
-  if (!(t.Desc().bind & Bind::RenderTarget) || !(t.Desc().bind & Bind::ShaderResource))
-    return Complain(MsgCode::WrongBindFlag, t.Name().c_str(),
-                    "GenerateMips needs Bind::RenderTarget and ShaderResource");
-  if (view->Desc().format != t.Desc().format)
-    return Complain(MsgCode::FormatMismatch, t.Name().c_str(),
-                    "GenerateMips takes a view of the texture's own format, not of its sRGB twin");
   const FormatSupport support = QueryFormatSupport(core_->instance.vk, core_->adapter.handle, t.Desc().format);
-  if (!(support & FormatSupport::MipAutogen))
-    return Complain(MsgCode::CapMissing, t.Name().c_str(),
-                    "this format has no FormatSupport::MipAutogen on this adapter");
+  if (backend::CheckGenerateMips(t.Desc(), view->Desc().format, support).Refuses(log_, t.Name().c_str())) return;
   LeavePass();
   const SubresourceRange range = view->Range();
   for (uint32_t mip = range.mip + 1; mip < range.mip + range.mips; ++mip) Blit(t, range, mip);

@@ -23,6 +23,10 @@ constexpr uint32_t kDirtyInputs = kDirtyPass | kDirtyGraphicsResources | backend
 constexpr uint32_t kDirtyChecks = backend::DirtyShaders | backend::DirtyLayout | backend::DirtyTargets |
                                   backend::DirtyViewports | backend::DirtyTopology;
 
+bool IsFed(const Shader& vs, const IInputLayout* layout) {
+  return !(vs.inputMask & ~(layout ? static_cast<const InputLayout*>(layout)->locationMask : 0u));
+}
+
 }  // namespace
 
 void Context::Draw(uint32_t vertexCount, uint32_t startVertex) {
@@ -34,7 +38,7 @@ void Context::Draw(uint32_t vertexCount, uint32_t startVertex) {
 }
 
 void Context::DrawIndexed(uint32_t indexCount, uint32_t startIndex, int32_t baseVertex) {
-  if (!CheckIndexBuffer() || !ReadyToDraw()) return;
+  if (!ReadyToDraw() || !CheckIndexBuffer()) return;
   if (emulateStarts_) [[unlikely]]
     PushStarts({uint32_t(baseVertex), 0});
   vk_.vkCmdDrawIndexed(cmd_, indexCount, 1, startIndex, baseVertex, 0);
@@ -52,7 +56,7 @@ void Context::DrawInstanced(uint32_t vertexCountPerInstance, uint32_t instanceCo
 
 void Context::DrawIndexedInstanced(uint32_t indexCountPerInstance, uint32_t instanceCount, uint32_t startIndex,
                                    int32_t baseVertex, uint32_t startInstance) {
-  if (!CheckIndexBuffer() || !ReadyToDraw()) return;
+  if (!ReadyToDraw() || !CheckIndexBuffer()) return;
   if (emulateStarts_) [[unlikely]]
     PushStarts({uint32_t(baseVertex), startInstance});
   vk_.vkCmdDrawIndexed(cmd_, indexCountPerInstance, instanceCount, startIndex, baseVertex, startInstance);
@@ -68,9 +72,8 @@ void Context::DrawInstancedIndirect(IBuffer* args, uint32_t offset) {
 }
 
 void Context::DrawIndexedInstancedIndirect(IBuffer* args, uint32_t offset) {
-  if (!CheckIndexBuffer()) return;
   Buffer* buffer = PrepareIndirect(args, offset, sizeof(DrawIndexedArgs), offsetof(DrawIndexedArgs, baseVertex));
-  if (!buffer || !ReadyToDraw()) return;
+  if (!buffer || !ReadyToDraw() || !CheckIndexBuffer()) return;
   if (emulateStarts_) PushStarts({0, 0, 1});
   vk_.vkCmdDrawIndexedIndirect(cmd_, buffer->Handle(), buffer->Offset() + offset, 1, 0);
   ++stats_.draws;
@@ -130,7 +133,7 @@ void Context::CopyStarts(Buffer& args, uint32_t offset) {
 bool Context::SwitchPipeline() {
   const auto shader = [&](Stage s) { return static_cast<const Shader*>(state_.shaders[size_t(s)].get()); };
   const Shader *vs = shader(Stage::Vertex), *gs = shader(Stage::Geometry), *ps = shader(Stage::Pixel);
-  if (!pipeline_ || !vs || (vs->reflection.inputs.size && !state_.layout)) return false;
+  if (!pipeline_ || !vs || !IsFed(*vs, state_.layout.get())) return false;
   if (gs && ListOf(state_.topology) != gs->reflection.gsInput) return false;
   const auto* blend = static_cast<const BlendState*>(state_.blend.get());
   PipelineKey key = key_;
@@ -186,9 +189,10 @@ bool Context::CheckDraw() {
            "draw without a vertex shader; call VSSetShader; it is skipped");
     return false;
   }
-  if (vs->reflection.inputs.size && !state_.layout) {
+  if (!IsFed(*vs, state_.layout.get())) {
     Report(Severity::Error, MsgCode::LayoutMismatch, vs->Name().c_str(),
-           "the vertex shader has inputs but no input layout is bound; call IASetInputLayout; the draw is skipped");
+           "the vertex shader has inputs that no input layout, or not the bound one, gives; call IASetInputLayout with "
+           "one made for it; the draw is skipped");
     return false;
   }
   return !gs || CheckGeometryInput(gs);

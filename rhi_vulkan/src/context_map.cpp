@@ -62,6 +62,7 @@ Status Context::MapBuffer(Buffer& buffer, MapMode mode, Mapped* out) {
   if (backend::CheckMap(buffer.Desc(), mode).Refuses(log_, name)) return Status::InvalidArg;
   if (buffer.mapped) return MapError(MsgCode::MapTwice, name, "the buffer is mapped already; call Unmap first");
   const bool discard = mode == MapMode::WriteDiscard;
+  core_->SpeakAgain();
   if (discard && !Discard(buffer)) return core_->Failure();
   if (buffer.IsDynamic()) {
     out->data = buffer.slice.Data();

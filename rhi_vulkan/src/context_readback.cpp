@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_vulkan {
 namespace {
@@ -61,18 +62,12 @@ void Context::CopyToBuffer(Texture& texture, uint32_t subresource, const backend
 }
 
 Status Context::ReadTexture(Texture& texture, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch) {
-  const char* name = texture.Name().c_str();
   const TextureDesc& desc = texture.Desc();
   if (core_->lost) return Status::DeviceLost;
-  if (subresource >= texture.SubresourceCount())
-    return MapError(MsgCode::SubresourceOutOfRange, name, "ReadBack of a subresource that the texture does not have");
-  if (desc.sampleCount > 1)
-    return MapError(MsgCode::FormatMismatch, name, "ReadBack of a multisampled texture; resolve it first");
+  const backend::Misuse misuse = backend::CheckReadBack(&desc, subresource, out, capacity, rowPitch);
+  if (misuse.Refuses(log_, texture.Name().c_str())) return Status::InvalidArg;
   const backend::MipLayout m = backend::GetMipLayout(desc, texture.One(subresource).mip);
   const uint32_t pitch = rowPitch ? rowPitch : m.rowBytes;
-  const size_t rows = size_t(m.rows) * m.depth;
-  if (!out || pitch < m.rowBytes || capacity < (rows - 1) * pitch + m.rowBytes)
-    return MapError(MsgCode::OutOfBounds, name, "ReadBack needs room for all rows, and a rowPitch that holds one");
   if (texture.IsStaging()) {
     if (Status s = WaitForSerial(texture.staging.lastUse); s != Status::Ok) return s;
     const uint8_t* in = texture.staging.memory.mapped + texture.stagingOffset[subresource];
@@ -96,11 +91,9 @@ Status Context::ReadTexture(Texture& texture, uint32_t subresource, void* out, s
 }
 
 Status Context::ReadBuffer(Buffer& source, uint32_t offset, uint32_t size, void* out) {
-  const char* name = source.Name().c_str();
   if (core_->lost) return Status::DeviceLost;
-  const uint32_t width = source.Desc().byteWidth;
-  if (!out || offset > width || size > width - offset)
-    return MapError(MsgCode::OutOfBounds, name, "ReadBack beyond the end of the buffer");
+  const backend::Misuse misuse = backend::CheckReadBack(&source.Desc(), offset, size, out);
+  if (misuse.Refuses(log_, source.Name().c_str())) return Status::InvalidArg;
   if (size == 0) return Status::Ok;
   if (source.IsDynamic()) {
     std::memcpy(out, source.slice.Data() + offset, size);

@@ -7,11 +7,6 @@ namespace {
 
 constexpr uint32_t kMaxWrites = 32;  // 16 t and 16 s registers; u registers are 8
 
-bool Fits(const ShaderView& view, const ShaderResource& declared) {
-  if (declared.kind != ShaderResourceKind::Texture) return view.buffer != nullptr;
-  return view.texture && backend::ShownDim(view.texture->Desc(), view.Desc(), false) == declared.dim;
-}
-
 }  // namespace
 
 bool Context::BindConstants() {
@@ -101,11 +96,12 @@ void Context::AddResource(Stage stage, const ShaderResource& r) {
   const bool wantsTexture = r.kind == ShaderResourceKind::Texture;
   if (view && !Fits(*view, r)) {
     Report(Severity::Error, MsgCode::ViewMismatch, r.name,
-           "the view in a t register is of another kind or dimension than the shader's; it reads 0");
+           "the view in a t register is of another kind, dimension or type of texels than the shader's; it reads 0");
     view = nullptr;
-  } else if (!view)
+  } else if (!view) {
     Report(Severity::Warning, MsgCode::NothingBound, r.name,
            "the shader reads a t register with nothing bound; it reads 0");
+  }
   if (wantsTexture) {
     const bool depth = view && GetFormatInfo(view->Desc().format).depth;
     const VkImageView handle = view ? view->view : NullView(r.dim, r.integer);
@@ -171,10 +167,15 @@ void Context::AddUav(const ShaderResource& r) {
   const uint32_t binding = kVkUavBinding + r.slot;
   auto* view = static_cast<UavView*>(state_.uavs[r.slot].get());
   const bool wantsTexture = r.kind == ShaderResourceKind::RWTexture;
-  if (view && (view->texture != nullptr) != wantsTexture) view = nullptr;
-  if (!view)
+  if (view && !Fits(*view, r)) {
+    Report(Severity::Error, MsgCode::ViewMismatch, r.name,
+           "the view in a u register is of another kind, dimension or type of texels than the shader's; it reads 0 and "
+           "writes are dropped");
+    view = nullptr;
+  } else if (!view) {
     Report(Severity::Warning, MsgCode::NothingBound, r.name,
-           "the shader uses a u register with nothing (fitting) bound; it reads 0 and writes are dropped");
+           "the shader uses a u register with nothing bound; it reads 0 and writes are dropped");
+  }
   if (wantsTexture)
     return AddImage(binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, view ? view->view : VK_NULL_HANDLE, kStorageWrite.layout,
                     view ? view->id : 0);
@@ -227,7 +228,8 @@ VkImageView Context::NullView(TextureDim dim, bool integer) {
   barriers.Record(vk_, Setup());
   ViewDesc viewDesc;
   backend::ResolveTextureView(desc, nullptr, Bind::ShaderResource, &viewDesc, log_);
-  core_->Check(CreateImageView(*core_, made, viewDesc, Bind::ShaderResource, &view), desc.name, "vkCreateImageView");
+  const VkResult result = CreateImageView(*core_, made, viewDesc, Bind::ShaderResource, &view);
+  core_->CheckOnce(result, desc.name, "vkCreateImageView");
   return view;
 }
 

@@ -27,13 +27,15 @@ Status Batch::Create() {
   VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
   poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
   poolInfo.queueFamilyIndex = core.adapter.queueFamily;
-  Status s = core.Check(core.vk.vkCreateCommandPool(core.device, &poolInfo, nullptr, &pool), "", "vkCreateCommandPool");
+  VkResult result = core.vk.vkCreateCommandPool(core.device, &poolInfo, nullptr, &pool);
+  Status s = core.CheckOnce(result, "", "vkCreateCommandPool");
   if (s != Status::Ok) return s;
   VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
   info.commandPool = pool;
   info.commandBufferCount = 2;
   std::array<VkCommandBuffer, 2> buffers{};
-  s = core.Check(core.vk.vkAllocateCommandBuffers(core.device, &info, buffers.data()), "", "vkAllocateCommandBuffers");
+  result = core.vk.vkAllocateCommandBuffers(core.device, &info, buffers.data());
+  s = core.CheckOnce(result, "", "vkAllocateCommandBuffers");
   setup = buffers[0];
   main = buffers[1];
   return s;
@@ -161,6 +163,7 @@ Status Context::SubmitAll(const PresentSync& present) {
 void Context::EndFrame() {
   Flush();
   reported_.clear();
+  core_->SpeakAgain();
   core_->pipelines->ForgetFailed();
   frames_.push_back(core_->recording - 1);
   if (frames_.size() <= framesInFlight_) return;

@@ -26,6 +26,7 @@ Status Context::InitBuffer(Buffer& buffer, const void* data) {
     return Status::Ok;
   }
   Slice slice;
+  core_->SpeakAgain();
   if (!ring_.Take(AlignUp(size, ring_.Alignment()), &slice)) return core_->Failure();
   std::memcpy(slice.Data(), data, size);
   const VkBufferCopy region{slice.offset, 0, size};
@@ -38,21 +39,13 @@ Status Context::InitBuffer(Buffer& buffer, const void* data) {
 }
 
 Status Context::InitTexture(Texture& texture, const SubresourceData* data) {
-  const char* name = texture.Name().c_str();
-  if (GetFormatInfo(texture.Desc().format).stencil) {
-    Complain(MsgCode::FormatMismatch, name, "a texture with stencil cannot be given data; render or clear it");
-    return Status::InvalidArg;
-  }
   if (!texture.IsStaging()) {
     BarrierBatch barriers;
     texture.Advance(texture.All(), kCopyDest, barriers);
     stats_.barriers += barriers.Record(vk_, Setup());
   }
+  core_->SpeakAgain();
   for (uint32_t i = 0; i < texture.SubresourceCount(); ++i) {
-    if (!data[i].data) {
-      Complain(MsgCode::InvalidDesc, name, "initial data must be given for every subresource");
-      return Status::InvalidArg;
-    }
     const Box box = WholeMip(backend::GetMipLayout(texture.Desc(), texture.One(i).mip));
     if (!Upload(texture.IsStaging() ? VK_NULL_HANDLE : Setup(), texture, i, box, data[i])) return core_->Failure();
   }

@@ -113,6 +113,11 @@ Status Core::Check(VkResult result, const char* object, const char* what) {
   return result == VK_ERROR_DEVICE_LOST ? Lose(result, what) : CheckResult(log, result, object, what);
 }
 
+Status Core::CheckOnce(VkResult result, const char* object, const char* what) {
+  if (ToStatus(result) == Status::OutOfMemory && std::exchange(saidNoMemory_, true)) return Status::OutOfMemory;
+  return Check(result, object, what);
+}
+
 void Core::SetName(VkObjectType type, uint64_t handle, const char* name) {
   if (!instance.vk.vkSetDebugUtilsObjectNameEXT || !handle || !*name) return;
   VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};

@@ -50,6 +50,9 @@ class Core {
   Status Wait(uint64_t serial);  // of a submitted serial
   uint64_t Completed();
   Status Check(VkResult, const char* object, const char* what);  // also notes a lost device
+  // For what gives the caller no status: that there is no memory is said once, until SpeakAgain.
+  Status CheckOnce(VkResult, const char* object, const char* what);
+  void SpeakAgain() { saidNoMemory_ = false; }  // a new frame, or a call whose status needs its message
   // Of a failure after which nobody knows what the GPU does or holds. Waits for it, and says so, once.
   Status Lose(VkResult, const char* what);
   // Why a call failed that has given its message already.
@@ -77,7 +80,7 @@ class Core {
  private:
   VkResult TrySubmit(uint32_t count, const VkCommandBuffer* commands, const PresentSync&);
   uint64_t completed_ = 0;
-  bool closed_ = false;
+  bool closed_ = false, saidNoMemory_ = false;
   std::deque<std::pair<uint64_t, Retirable*>> retired_;
 };
 

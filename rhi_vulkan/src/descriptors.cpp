@@ -116,7 +116,7 @@ VkDescriptorSet DescriptorArena::Allocate(VkDescriptorSetLayout layout) {
     if (result == VK_SUCCESS) return set;
     const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
     if (full && !fresh) continue;
-    core_.Check(result, "", "vkAllocateDescriptorSets");
+    core_.CheckOnce(result, "", "vkAllocateDescriptorSets");
     return VK_NULL_HANDLE;
   }
 }
@@ -134,9 +134,8 @@ VkDescriptorPool DescriptorArena::NewPool() {
   info.poolSizeCount = uint32_t(kSizes.size());
   info.pPoolSizes = kSizes.data();
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  if (core_.Check(core_.vk.vkCreateDescriptorPool(core_.device, &info, nullptr, &pool), "", "vkCreateDescriptorPool") !=
-      Status::Ok)
-    return VK_NULL_HANDLE;
+  const VkResult result = core_.vk.vkCreateDescriptorPool(core_.device, &info, nullptr, &pool);
+  if (core_.CheckOnce(result, "", "vkCreateDescriptorPool") != Status::Ok) return VK_NULL_HANDLE;
   pools_.push_back(pool);
   return pool;
 }

@@ -240,6 +240,7 @@ Status VulkanDevice::PrecachePipeline(const PipelineKeyDesc& d) {
   }
   const PipelineParts parts{shader(d.vs), shader(d.gs), shader(d.ps), layout, blend ? &blend->Desc() : nullptr};
   core_->pipelines->ForgetFailed();
+  core_->SpeakAgain();
   return core_->pipelines->Get(key, parts).status;
 }
 

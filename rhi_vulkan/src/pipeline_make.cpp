@@ -232,7 +232,7 @@ Pipeline PipelineCache::Make(const PipelineKey& key, const PipelineParts& parts)
   info.layout = out.layout;
   ++made;
   const VkResult result = core_.vk.vkCreateGraphicsPipelines(core_.device, cache_, 1, &info, nullptr, &out.handle);
-  out.status = core_.Check(result, parts.vs->Name().c_str(), "vkCreateGraphicsPipelines");
+  out.status = core_.CheckOnce(result, parts.vs->Name().c_str(), "vkCreateGraphicsPipelines");
   if (out.status != Status::Ok) out.handle = VK_NULL_HANDLE;
   return out;
 }

@@ -56,9 +56,8 @@ bool QueryHeap::NewPool(SegmentKind kind) {
   info.queryCount = kPoolSlots;
   if (kind == SegmentKind::Statistics) info.pipelineStatistics = Statistics();
   VkQueryPool pool = VK_NULL_HANDLE;
-  if (core_.Check(core_.vk.vkCreateQueryPool(core_.device, &info, nullptr, &pool), "", "vkCreateQueryPool") !=
-      Status::Ok)
-    return false;
+  const VkResult result = core_.vk.vkCreateQueryPool(core_.device, &info, nullptr, &pool);
+  if (core_.CheckOnce(result, "", "vkCreateQueryPool") != Status::Ok) return false;
   pools_.push_back(pool);
   for (uint32_t i = 0; i < kPoolSlots; ++i) free_[size_t(kind)].push_front({pool, i, 0});
   return true;

@@ -134,6 +134,13 @@ inline Buffer* AsBuffer(IResource* resource) {
   return resource && typeid(*resource) == typeid(Buffer) ? static_cast<Buffer*>(resource) : nullptr;
 }
 
+// Whether the shader's register can show the view; else it reads 0.
+template <class Interface>
+bool Fits(const View<Interface>& view, const ShaderResource& declared) {
+  const bool written = std::is_same_v<Interface, IUnorderedAccessView>;
+  return backend::ShowsAs(view.texture ? &view.texture->Desc() : nullptr, view.Desc(), declared, written);
+}
+
 // Makes the image view that `need` (one Bind flag) asks for.
 VkResult CreateImageView(Core&, const Texture&, const ViewDesc&, Bind need, VkImageView* out);
 

@@ -23,7 +23,7 @@ RingPage* Ring::NewPage(uint32_t bytes) {
   VkResult result = core_.vk.vkCreateBuffer(core_.device, &info, nullptr, &page->buffer);
   if (result == VK_SUCCESS) result = core_.memory->AllocateFor(page->buffer, MemoryKind::Upload, &page->memory);
   if (result != VK_SUCCESS) {
-    core_.Check(result, "", "a new page of the constant ring");
+    core_.CheckOnce(result, "", "a new page of the constant ring");
     DestroyPage(*page);
     return nullptr;
   }

@@ -53,6 +53,7 @@ bool RegistersInRange(const ShaderReflection& r) {
 Shader::Shader(std::shared_ptr<Core> core, const ShaderBlob& blob)
     : VkObject(std::move(core)), reflection(blob.reflection), id(core_->states->nextShader++), stage_(blob.stage) {
   backend::Object<IShader>::SetName(blob.name);
+  for (const ShaderInput& input : reflection.inputs) inputMask |= 1u << input.location;
 }
 
 Shader::~Shader() {

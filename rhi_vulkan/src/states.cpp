@@ -110,7 +110,10 @@ Status Sampler::Create() {
 
 InputLayout::InputLayout(std::shared_ptr<Core> core, std::vector<LayoutElement> list, uint32_t layoutId)
     : VkObject(std::move(core)), elements(std::move(list)), id(layoutId) {
-  for (const LayoutElement& e : elements) slotMask |= 1u << e.slot;
+  for (const LayoutElement& e : elements) {
+    slotMask |= 1u << e.slot;
+    locationMask |= 1u << e.location;
+  }
 }
 
 Status ResolveElements(const InputElement* elements, uint32_t count, const Shader& vs, const Core& core,

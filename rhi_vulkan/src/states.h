@@ -63,6 +63,7 @@ class Shader final : public VkObject<IShader> {
   const SetLayout* uavLayout = nullptr;  // u registers (compute)
   VkPipeline compute = VK_NULL_HANDLE;
   VkPipelineLayout computeLayout = VK_NULL_HANDLE;
+  uint32_t inputMask = 0;     // vertex: locations that are read
   uint32_t colorOutputs = 0;  // pixel: bit n is set if SV_Target n is written
   uint32_t id = 0;
 
@@ -89,7 +90,8 @@ class InputLayout final : public VkObject<IInputLayout> {
  public:
   InputLayout(std::shared_ptr<Core> core, std::vector<LayoutElement> list, uint32_t layoutId);
   std::vector<LayoutElement> elements;
-  uint32_t slotMask = 0;  // vertex buffer slots that are read
+  uint32_t slotMask = 0;      // vertex buffer slots that are read
+  uint32_t locationMask = 0;  // that are fed
   const uint32_t id;
 };
 

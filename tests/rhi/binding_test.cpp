@@ -180,6 +180,38 @@ TEST_P(BindingTest, RegistersAreOfEachStage) {
   EXPECT_TRUE(Matches(gpu.Read(target), All({110, 110, 110, 110}), 1));
 }
 
+// A view of another kind, dimension or type of texels is as none: it reads 0, and the next draw is fine.
+TEST_P(BindingTest, ViewOfAnotherKindReadsZero) {
+  const Rgba8 white{255, 255, 255, 255};
+  const auto filled = [&](auto, auto, auto, auto) { return white; };
+  const Ref<ITexture> array = gpu.TextureOf<Rgba8>(
+      {.dim = TextureDim::Tex2DArray, .width = 2, .height = 2, .depthOrArray = 2, .format = Format::RGBA8_UNorm},
+      filled);
+  const Ref<ITexture> integers = gpu.TextureOf<Rgba8>({.width = 2, .height = 2, .format = Format::RGBA8_UInt}, filled);
+  const Ref<IBuffer> buffer = gpu.BufferOf(Bind::ShaderResource, std::vector<Rgba32F>(4, Rgba32F{1, 1, 1, 1}), 16);
+  const Target target = gpu.MakeTarget({.width = 2, .height = 2});
+  gpu.SetTarget(target);
+  sink.Expect(MsgCode::ViewMismatch, "a view of another kind");
+  int count = 0;
+  for (IResource* other : {static_cast<IResource*>(array.get()), static_cast<IResource*>(integers.get()),
+                           static_cast<IResource*>(buffer.get())}) {
+    gpu.Clear(target, {0, 1, 0, 1});
+    gpu.SetTexture(Stage::Pixel, 0, other);
+    gpu.DrawRect(test_shaders::sample_PSLoad);
+    EXPECT_EQ(sink.Count(MsgCode::ViewMismatch), ++count) << sink.Dump();
+    EXPECT_TRUE(Matches(gpu.Read(target), All({0, 0, 0, 0})));
+    context.EndFrame();
+  }
+  gpu.Clear(target, {0, 1, 0, 1});
+  gpu.SetTexture(Stage::Pixel, 0, array.get());
+  gpu.DrawRect(test_shaders::buffers_PSItem);
+  EXPECT_EQ(sink.Count(MsgCode::ViewMismatch), ++count) << sink.Dump();
+  EXPECT_TRUE(Matches(gpu.Read(target), All({0, 0, 0, 0})));
+  gpu.SetTexture(Stage::Pixel, 0, Solid(white).get());
+  gpu.DrawRect(test_shaders::sample_PSLoad);
+  EXPECT_TRUE(Matches(gpu.Read(target), All(white)));
+}
+
 TEST_P(BindingTest, SlotOutOfRangeIsReported) {
   sink.Expect(MsgCode::SlotOutOfRange, "slots beyond the last");
   IShaderResourceView* none[2] = {};

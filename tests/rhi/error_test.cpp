@@ -177,6 +177,43 @@ TEST_P(ErrorTest, DrawWithoutLayout) {
   ExpectUntouched(target);
 }
 
+// A layout that was made for a shader with fewer inputs.
+TEST_P(ErrorTest, DrawWithALayoutThatLacksAnInput) {
+  Wanted(MsgCode::LayoutMismatch);
+  const Target target = BlueTarget();
+  gpu.SetTarget(target);
+  const InputElement elements[] = {{.semantic = "POSITION", .format = Format::RGB32_Float},
+                                   {.semantic = "COLOR", .format = Format::RGBA32_Float, .offset = 12}};
+  const Ref<IShader> fewer = gpu.Shader(test_shaders::mesh_VSMesh);
+  const Ref<IBuffer> vertices = gpu.BufferOf(Bind::VertexBuffer, std::vector<float>(3 * 7, 0.5f));
+  gpu.SetVertices(vertices.get(), 28);
+  gpu.SetShaders(test_shaders::mesh_VSMesh, test_shaders::mesh_PSMesh);
+  context.IASetInputLayout(gpu.Layout(elements, fewer.get()).get());
+  context.Draw(3, 0);
+  EXPECT_EQ(sink.Count(MsgCode::LayoutMismatch), 0) << sink.Dump();
+  context.VSSetShader(gpu.Shader(test_shaders::mesh_VSInstanced).get());
+  context.Draw(3, 0);
+  EXPECT_EQ(sink.Count(MsgCode::LayoutMismatch), 1) << sink.Dump();
+  ExpectUntouched(target);
+}
+
+// Boxes of nothing are no mistake, and change nothing.
+TEST_P(ErrorTest, EmptyBoxesDoNothing) {
+  const auto texel = [](uint32_t x, uint32_t y, auto, auto) { return Rgba8{uint8_t(x), uint8_t(y), 1, 1}; };
+  const TextureDesc desc{.width = 4, .height = 4, .format = Format::RGBA8_UNorm};
+  const Ref<ITexture> t = gpu.TextureOf<Rgba8>(desc, texel), u = gpu.TextureOf<Rgba8>(desc, texel);
+  const Ref<IBuffer> a = gpu.BufferOf(Bind::VertexBuffer, std::vector<uint32_t>(4, 1)),
+                     b = gpu.BufferOf(Bind::VertexBuffer, std::vector<uint32_t>(4, 2));
+  const std::vector<uint8_t> data(64, 99);
+  const Box none{2, 2, 0, 2, 4, 1};
+  context.UpdateSubresource(t.get(), 0, &none, data.data(), 16, 64);
+  context.CopySubresourceRegion(t.get(), 0, 1, 1, 0, u.get(), 0, &none);
+  context.UpdateSubresource(a.get(), 0, &none, data.data(), 0, 0);
+  context.CopySubresourceRegion(a.get(), 0, 0, 0, 0, b.get(), 0, &none);
+  EXPECT_TRUE(Matches(gpu.Read(t.get()), [&](uint32_t x, uint32_t y) { return texel(x, y, 0, 0); }));
+  EXPECT_EQ(gpu.ReadAs<uint32_t>(a.get(), 0, 4), std::vector<uint32_t>(4, 1));
+}
+
 TEST_P(ErrorTest, DrawWithTargetsOfOtherSizes) {
   Wanted(MsgCode::TargetsDiffer);
   const Target a = BlueTarget(), b = gpu.MakeTarget({.width = 8, .height = 8});

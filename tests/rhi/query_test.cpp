@@ -235,6 +235,8 @@ TEST_P(QueryTest, DebugMarkersNest) {
   gpu.DrawRect(test_shaders::rect_PSTint, {.extra = {0.1f, 0, 0, 0}});
   context.EndEvent();
   context.Flush();
+  context.BeginEvent(nullptr);  // no name
+  context.EndEvent();
   context.BeginEvent("over a frame");
   context.EndFrame();
   context.EndEvent();

@@ -87,6 +87,31 @@ TEST_P(UavTest, WritesToNothingAreDropped) {
   context.Dispatch(1, 1, 1);
 }
 
+// A view of another kind, dimension or type of texels is as none.
+TEST_P(UavTest, ViewsOfAnotherKindAreNotWritten) {
+  sink.Expect(MsgCode::ViewMismatch, "a view of another kind");
+  gpu.SetDraw({});
+  const Ref<ITexture> array = Make(TextureDim::Tex2DArray, 2, 1), plane = Make(TextureDim::Tex2D, 1, 1);
+  const Ref<IBuffer> buffer = gpu.BufferOf(Bind::UnorderedAccess, std::vector<Rgba32F>(4, Rgba32F{1, 1, 1, 1}), 16);
+  int count = 0;
+  const auto run = [&](const ShaderBlob& shader, uint32_t slot, IResource* resource) {
+    const Ref<IUnorderedAccessView> view = gpu.WriteView(resource);
+    IUnorderedAccessView* raw = view.get();
+    context.CSSetUnorderedAccessViews(slot, 1, &raw);
+    context.CSSetShader(gpu.Shader(shader).get());
+    context.Dispatch(1, 1, 1);
+    EXPECT_EQ(sink.Count(MsgCode::ViewMismatch), ++count) << sink.Dump();
+    context.EndFrame();
+  };
+  run(test_shaders::uav_CSPlane, 0, array.get());
+  run(test_shaders::uav_CSPlane, 0, buffer.get());
+  run(test_shaders::uav_CSLayers, 2, plane.get());
+  run(test_shaders::uav_CSIntegers, 1, plane.get());
+  for (uint32_t s = 0; s < 2; ++s) EXPECT_TRUE(Matches(gpu.Read(array.get(), 0, s), Marked(0, false))) << s;
+  EXPECT_TRUE(Matches(gpu.Read(plane.get()), Marked(0, false)));
+  EXPECT_EQ(gpu.ReadAs<float>(buffer.get(), 0, 16), std::vector<float>(16, 1));
+}
+
 // A view that is written shows one mip, and no _sRGB format.
 TEST_P(UavTest, WrongViewsAreRefused) {
   sink.Expect(MsgCode::InvalidDesc, "two mips");

@@ -162,6 +162,27 @@ TEST_P(OutOfMemoryTest, RingPages) {
   rig->context->Unmap(big.get(), 0);
 }
 
+// Calls without a status say it once a frame; calls with one always do.
+TEST_P(OutOfMemoryTest, IsSaidOnceAFrame) {
+  const Ref<IBuffer> constants =
+      rig->Buffer({.byteWidth = 16384, .usage = Usage::Dynamic, .bind = Bind::ConstantBuffer});
+  const std::vector<uint8_t> data(16384);
+  Fail("vkCreateBuffer");
+  for (int frame = 1; frame <= 3; ++frame) {
+    // More than the pages of the ring hold.
+    for (int i = 0; i < 1000; ++i) rig->context->UpdateConstants(constants.get(), data.data(), 16384);
+    EXPECT_GE(TheLostLayer().failures(), 2u);
+    EXPECT_EQ(rig->sink.Count(MsgCode::OutOfMemory), 2 * frame - 1) << rig->sink.Dump();
+    Ref<IBuffer> none;
+    EXPECT_EQ(rig->device->CreateBuffer({.byteWidth = 64, .usage = Usage::Dynamic, .bind = Bind::ConstantBuffer},
+                                        nullptr, &none),
+              Status::OutOfMemory);
+    EXPECT_EQ(rig->sink.Count(MsgCode::OutOfMemory), 2 * frame) << rig->sink.Dump();
+    rig->context->EndFrame();
+    rig->Require(rig->device->WaitIdle(), "WaitIdle");
+  }
+}
+
 TEST_P(OutOfMemoryTest, ASubmissionIsTriedAgain) {
   rig->sink.Allow(MsgCode::OutOfMemory, "");
   const Ref<IShader> vs = rig->Shader(stress_shaders::stress_VSRect), ps = rig->Shader(stress_shaders::stress_PSTint);

@@ -146,7 +146,7 @@ TEST_F(CopyTest, GenerateMips) {
   context->GenerateMips(View(noTarget.get()).get());
   Gives(MsgCode::WrongBindFlag);
   context->GenerateMips(View(integer.get()).get());
-  Gives(MsgCode::FormatMismatch);
+  Gives(MsgCode::CapMissing);
   context->GenerateMips(View(good.get()).get());
 }
 

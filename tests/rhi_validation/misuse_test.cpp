@@ -17,12 +17,14 @@ struct Objects {
   explicit Objects(IDevice& device);
   IDevice& d;
   IContext& c;
-  Ref<IBuffer> plain, small, dynamic, fixed, staging, constants;
-  Ref<ITexture> picture, other, half, floats, samples, depth, fixedPicture, stagingPicture, blocks;
+  Ref<IBuffer> plain, small, dynamic, fixed, staging, constants, items;
+  Ref<ITexture> picture, other, half, floats, samples, depth, fixedPicture, stagingPicture, blocks, moreBlocks, words,
+      cube;
   Ref<IRenderTargetView> rtv;
   Ref<IShader> vs, ps;
   Ref<IInputLayout> layout;
   Ref<IQuery> occlusion, event;
+  Ref<ISamplerState> sampler;
   std::array<uint8_t, 4096> bytes{};
   Mapped m;
 
@@ -51,6 +53,12 @@ struct Objects {
   void Read(ITexture* t, uint32_t subresource) {
     EXPECT_EQ(d.ReadBack(t, subresource, bytes.data(), bytes.size()), Status::InvalidArg);
   }
+  void Mips(ITexture* t, Format format = Format::Unknown) {
+    Ref<IShaderResourceView> view;
+    const ViewDesc desc{.format = format};
+    EXPECT_EQ(d.CreateShaderResourceView(t, &desc, &view), Status::Ok);
+    c.GenerateMips(view.get());
+  }
   void SetTarget(uint32_t viewports = 1) {
     IRenderTargetView* target = rtv.get();
     const Viewport viewport{0, 0, 8, 8, 0, 1};
@@ -60,6 +68,25 @@ struct Objects {
   void SetShaders() {
     c.VSSetShader(vs.get());
     c.PSSetShader(ps.get());
+  }
+  void SetDraw(uint32_t viewports = 1) {
+    SetTarget(viewports), SetShaders();
+    c.IASetInputLayout(layout.get());
+  }
+  // Everything that the shaders read; they want a Texture2D of floats.
+  void SetAll(IResource* resource) {
+    Ref<IShaderResourceView> view;
+    EXPECT_EQ(d.CreateShaderResourceView(resource, nullptr, &view), Status::Ok);
+    IBuffer *vertices = plain.get(), *tint = constants.get();
+    IShaderResourceView* shown = view.get();
+    ISamplerState* smooth = sampler.get();
+    const uint32_t stride = 16, offset = 0;
+    SetDraw();
+    c.UpdateConstants(tint, bytes.data(), 64);
+    c.IASetVertexBuffers(0, 1, &vertices, &stride, &offset);
+    c.SetConstantBuffers(3, 1, &tint);
+    c.PSSetShaderResources(0, 1, &shown);
+    c.PSSetSamplers(0, 1, &smooth);
   }
 };
 
@@ -81,6 +108,14 @@ Objects::Objects(IDevice& device) : d(device), c(*device.ImmediateContext()) {
   fixedPicture = Texture({.width = 8, .height = 8, .format = f, .usage = Usage::Immutable}, true);
   stagingPicture = Texture({.width = 8, .height = 8, .format = f, .usage = Usage::Staging, .bind = Bind::None});
   blocks = Texture({.width = 8, .height = 8, .format = Format::BC1_UNorm});
+  moreBlocks = Texture({.width = 8, .height = 8, .format = Format::BC1_UNorm});
+  cube = Texture({.dim = TextureDim::TexCube, .width = 8, .height = 8, .depthOrArray = 6, .format = f});
+  items = Buffer({.byteWidth = 64, .bind = Bind::ShaderResource, .structureStride = 16});
+  words = Texture({.width = 8,
+                   .height = 8,
+                   .mipLevels = 2,
+                   .format = Format::R32_UInt,
+                   .bind = Bind::ShaderResource | Bind::RenderTarget});
   EXPECT_EQ(d.CreateRenderTargetView(picture.get(), nullptr, &rtv), Status::Ok);
   EXPECT_EQ(d.CreateShader(validation_shaders::triangle_VSMain, &vs), Status::Ok);
   EXPECT_EQ(d.CreateShader(validation_shaders::triangle_PSMain, &ps), Status::Ok);
@@ -88,6 +123,7 @@ Objects::Objects(IDevice& device) : d(device), c(*device.ImmediateContext()) {
   EXPECT_EQ(d.CreateInputLayout(&position, 1, vs.get(), &layout), Status::Ok);
   EXPECT_EQ(d.CreateQuery({QueryType::Occlusion}, &occlusion), Status::Ok);
   EXPECT_EQ(d.CreateQuery({QueryType::Event}, &event), Status::Ok);
+  EXPECT_EQ(d.CreateSamplerState({}, &sampler), Status::Ok);
 }
 
 struct MisuseCase {
@@ -97,8 +133,8 @@ struct MisuseCase {
   bool nullSeesIt = true;  // the null device takes every draw
 };
 
-constexpr Box kBeyond{4, 4, 0, 12, 8, 1}, kLeft{0, 0, 0, 32, 1, 1}, kPart{1, 0, 0, 4, 4, 1},
-    kTooMuch{0, 0, 0, 33, 1, 1};
+constexpr Box kBeyond{4, 4, 0, 12, 8, 1}, kLeft{0, 0, 0, 32, 1, 1}, kPart{1, 0, 0, 4, 4, 1}, kBlock{0, 0, 0, 4, 4, 1},
+    kTooMuch{0, 0, 0, 33, 1, 1}, kTurned{4, 0, 0, 2, 4, 1};
 
 std::vector<MisuseCase> Cases() {
   using O = Objects;
@@ -123,6 +159,14 @@ std::vector<MisuseCase> Cases() {
       {"RegionOfNoSubresource", SubresourceOutOfRange,
        [](O& o) { o.Copy(o.picture.get(), 0, o.other.get(), nullptr, 0, 3); }},
       {"RegionWithinSubresource", OutOfBounds, [](O& o) { o.Copy(o.half.get(), 0, o.half.get(), nullptr); }},
+      {"RegionOffBlocks", OutOfBounds, [](O& o) { o.Copy(o.blocks.get(), 0, o.moreBlocks.get(), &kPart); }},
+      {"RegionToOffBlocks", OutOfBounds, [](O& o) { o.Copy(o.blocks.get(), 2, o.moreBlocks.get(), &kBlock); }},
+      {"RegionTurned", OutOfBounds, [](O& o) { o.Copy(o.picture.get(), 0, o.other.get(), &kTurned); }},
+      {"RegionTurnedOfBuffer", OutOfBounds, [](O& o) { o.Copy(o.plain.get(), 0, o.small.get(), &kTurned); }},
+      {"RegionOfNull", InvalidDesc, [](O& o) { o.Copy(nullptr, 0, o.other.get(), nullptr); }},
+      {"RegionBetweenKinds", FormatMismatch, [](O& o) { o.Copy(o.plain.get(), 0, o.other.get(), nullptr); }},
+      {"ResolveOfNull", InvalidDesc,
+       [](O& o) { o.c.ResolveSubresource(o.picture.get(), 0, nullptr, 0, Format::RGBA8_UNorm); }},
       {"ResolveOfOneSample", FormatMismatch,
        [](O& o) { o.c.ResolveSubresource(o.picture.get(), 0, o.other.get(), 0, Format::RGBA8_UNorm); }},
       {"ResolveOfNoSubresource", SubresourceOutOfRange,
@@ -140,6 +184,8 @@ std::vector<MisuseCase> Cases() {
       {"UpdateOfSamples", FormatMismatch, [](O& o) { o.Update(o.samples.get()); }},
       {"UpdateWithNarrowRows", PitchTooSmall,
        [](O& o) { o.c.UpdateSubresource(o.picture.get(), 0, nullptr, o.bytes.data(), 16, 0); }},
+      {"UpdateTurned", OutOfBounds, [](O& o) { o.Update(o.picture.get(), &kTurned); }},
+      {"UpdateOfNoData", InvalidDesc, [](O& o) { o.c.UpdateSubresource(o.picture.get(), 0, nullptr, nullptr, 0, 0); }},
       {"UpdateOfNull", InvalidDesc, [](O& o) { o.Update(nullptr); }},
       {"TooManyConstants", OutOfBounds, [](O& o) { o.c.UpdateConstants(o.constants.get(), o.bytes.data(), 65); }},
       {"ConstantsElsewhere", MapMode, [](O& o) { o.c.UpdateConstants(o.plain.get(), o.bytes.data(), 16); }},
@@ -182,23 +228,52 @@ std::vector<MisuseCase> Cases() {
        false},
       {"DrawWithoutLayout", LayoutMismatch, [](O& o) { o.SetTarget(), o.SetShaders(), o.c.Draw(3, 0); }, false},
       {"DispatchWithoutShader", NothingBound, [](O& o) { o.c.Dispatch(1, 1, 1); }, false},
-      {"DrawWithoutViewport", NothingBound,
-       [](O& o) { o.SetTarget(0), o.SetShaders(), o.c.IASetInputLayout(o.layout.get()), o.c.Draw(3, 0); }, false},
+      {"DrawWithoutViewport", NothingBound, [](O& o) { o.SetDraw(0), o.c.Draw(3, 0); }, false},
+      // Several faults at once: the first in the header's order.
+      {"DrawWithoutAnything", NoVertexShader, [](O& o) { o.c.DrawIndexed(3, 0, 0); }, false},
+      {"DrawWithShadersAlone", LayoutMismatch, [](O& o) { o.SetShaders(), o.c.DrawIndexed(3, 0, 0); }, false},
+      {"DrawWithShadersAndLayout", NoTarget,
+       [](O& o) { o.SetShaders(), o.c.IASetInputLayout(o.layout.get()), o.c.DrawIndexed(3, 0, 0); }, false},
+      {"DrawWithoutViewportAndIndices", NothingBound,
+       [](O& o) { o.SetDraw(0), o.c.DrawIndexedInstanced(3, 1, 0, 0, 0); }, false},
+      {"DrawWithoutIndices", IndexBufferMissing, [](O& o) { o.SetAll(o.other.get()), o.c.DrawIndexed(3, 0, 0); },
+       false},
+      {"IndirectWithoutIndices", IndexBufferMissing,
+       [](O& o) { o.SetAll(o.other.get()), o.c.DrawIndexedInstancedIndirect(o.small.get(), 0); }, false},
+      {"IndirectIndexedOfNull", WrongBindFlag, [](O& o) { o.c.DrawIndexedInstancedIndirect(nullptr, 0); }, false},
+      {"IndirectIndexedBeyond", OutOfBounds, [](O& o) { o.c.DrawIndexedInstancedIndirect(o.small.get(), 16); }, false},
+      {"DispatchIndirectOfNull", WrongBindFlag, [](O& o) { o.c.DispatchIndirect(nullptr, 0); }, false},
+      {"DispatchIndirectBeyond", OutOfBounds, [](O& o) { o.c.DispatchIndirect(o.small.get(), 24); }, false},
+      {"DispatchIndirectWithoutShader", NothingBound, [](O& o) { o.c.DispatchIndirect(o.small.get(), 0); }, false},
+      {"DispatchOfTooMany", OutOfBounds, [](O& o) { o.c.Dispatch(1, 65536, 1); }, false},
+      {"ViewOfOtherDimension", ViewMismatch, [](O& o) { o.SetAll(o.cube.get()), o.c.Draw(3, 0); }, false},
+      {"ViewOfOtherTexels", ViewMismatch, [](O& o) { o.SetAll(o.words.get()), o.c.Draw(3, 0); }, false},
+      {"ViewOfBuffer", ViewMismatch, [](O& o) { o.SetAll(o.items.get()), o.c.Draw(3, 0); }, false},
       {"IndirectOfNull", WrongBindFlag, [](O& o) { o.c.DrawInstancedIndirect(nullptr, 0); }, false},
       {"IndirectWithoutFlag", WrongBindFlag, [](O& o) { o.c.DrawInstancedIndirect(o.plain.get(), 0); }, false},
       {"IndirectBeyond", OutOfBounds, [](O& o) { o.c.DrawInstancedIndirect(o.small.get(), 20); }, false},
       {"IndirectOffFour", OutOfBounds, [](O& o) { o.c.DrawInstancedIndirect(o.small.get(), 2); }, false},
-      {"MipsOfATwin", FormatMismatch,
+      {"MipsOfATwin", FormatMismatch, [](O& o) { o.Mips(o.picture.get(), Format::RGBA8_UNorm_sRGB); }},
+      {"MipsOfNull", InvalidDesc, [](O& o) { o.c.GenerateMips(nullptr); }},
+      {"MipsOfNoTarget", WrongBindFlag, [](O& o) { o.Mips(o.other.get()); }},
+      {"MipsOfIntegers", CapMissing, [](O& o) { o.Mips(o.words.get()); }},
+      {"PrecacheOfNothing", NoVertexShader, [](O& o) { EXPECT_EQ(o.d.PrecachePipeline({}), Status::InvalidArg); }},
+      {"PrecacheOfTooManyTargets", NoVertexShader,
        [](O& o) {
-         Ref<IShaderResourceView> view;
-         const ViewDesc twin{.format = Format::RGBA8_UNorm_sRGB};
-         EXPECT_EQ(o.d.CreateShaderResourceView(o.picture.get(), &twin, &view), Status::Ok);
-         o.c.GenerateMips(view.get());
-       },
-       false},
+         const PipelineKeyDesc key{.vs = o.vs.get(), .rtvCount = kMaxRenderTargets + 1};
+         EXPECT_EQ(o.d.PrecachePipeline(key), Status::InvalidArg);
+       }},
       {"ReadOfNull", InvalidDesc, [](O& o) { o.Read(nullptr, 0); }},
-      {"ReadOfSamples", FormatMismatch, [](O& o) { o.Read(o.samples.get(), 0); }, false},
+      {"ReadOfSamples", FormatMismatch, [](O& o) { o.Read(o.samples.get(), 0); }},
       {"ReadOfNoSubresource", SubresourceOutOfRange, [](O& o) { o.Read(o.picture.get(), 1); }},
+      {"ReadOfNullBuffer", InvalidDesc,
+       [](O& o) { EXPECT_EQ(o.d.ReadBack(nullptr, 0, 4, o.bytes.data()), Status::InvalidArg); }},
+      {"ReadIntoTooLittle", OutOfBounds,
+       [](O& o) { EXPECT_EQ(o.d.ReadBack(o.picture.get(), 0, o.bytes.data(), 255), Status::InvalidArg); }},
+      {"ReadIntoNull", InvalidDesc,
+       [](O& o) { EXPECT_EQ(o.d.ReadBack(o.picture.get(), 0, nullptr, 256), Status::InvalidArg); }},
+      {"ReadOfBufferIntoNull", InvalidDesc,
+       [](O& o) { EXPECT_EQ(o.d.ReadBack(o.plain.get(), 0, 4, nullptr), Status::InvalidArg); }},
       {"ReadBeyondBuffer", OutOfBounds,
        [](O& o) { EXPECT_EQ(o.d.ReadBack(o.plain.get(), 48, 32, o.bytes.data()), Status::InvalidArg); }},
       {"EventsEndTwice", QueryOrder, [](O& o) { o.c.EndEvent(); }, false},

@@ -6,7 +6,8 @@
 //  - Binding a target unbinds its shader views, with a message. What is not bound reads 0.
 //  - Errors are a Status and a message to the device's sink. What returns nothing reports (Severity::Error unless said
 //    otherwise) and ignores the call; draws with an unusable state are reported, once a frame, and skipped:
-//    looked at in the order shader, layout and topology, targets, viewport.
+//    looked at in the order indirect arguments, shader, layout and topology, targets, viewport, index buffer.
+//    That there is no memory is said once a frame, too, where there is no status to say it.
 //  - Arrays of `count` entries may have null entries, which unbind; the array itself is null only where count is 0.
 //    An out parameter is never null. Objects belong to the device that made them; only rhi/validation.h looks
 //    (ForeignObject), and it alone checks bind flags of buffers that are bound (WrongBindFlag).
@@ -113,8 +114,8 @@ class IContext {
   // ---- Shaders and their registers: VSSetShader and kin / pipeline key, descriptor sets (rhi/shader.h) / one linked
   // program for each combination, texture units, sampler objects, uniform and storage blocks.
   // A register with nothing bound reads 0, with a Warning at the draw (NothingBound); so do constants and elements
-  // beyond the end of what is bound. No sampler: the default SamplerDesc. A view of another kind than the shader
-  // declares (a buffer for a texture): FormatMismatch, and it reads 0.
+  // beyond the end of what is bound. No sampler: the default SamplerDesc. A view of another kind, dimension or type of
+  // texels (integer or not) than the shader declares: ViewMismatch, and it reads 0, as if nothing were bound.
   virtual void SetShader(Stage, IShader*) = 0;
   virtual void SetConstantBuffers(uint32_t first, uint32_t count, IBuffer* const*) = 0;  // shared by all stages
   // What is bound as a target cannot be bound here, too: the slot becomes null, with a Warning
@@ -192,12 +193,13 @@ class IContext {
   virtual void UpdateSubresource(IResource*, uint32_t subresource, const Box*, const void* data, uint32_t rowPitch,
                                  uint32_t slicePitch) = 0;
   // Two buffers, or two textures of one format (or sRGB twins) and sample count (FormatMismatch), to Default or Staging
-  // (ImmutableWrite, MapMode). CopyResource: everything, sizes and mips equal (FormatMismatch). CopySubresourceRegion: a
-  // box of the source (null: all) to x, y, z of the destination, in texels, whole 4x4 blocks of BC formats; buffers:
-  // bytes, in x and the box's left and right. Slices of arrays, faces of cubes and depth slices of volumes may be mixed. Beyond an
-  // edge, or onto itself (one subresource of a texture, overlapping bytes of a buffer): OutOfBounds; no such
-  // subresource: SubresourceOutOfRange. Ends a pass. Copy* / vkCmdCopyBuffer, vkCmdCopyImage /
-  // glCopyNamedBufferSubData, glCopyImageSubData; staging textures are buffers there.
+  // (ImmutableWrite, MapMode). CopyResource: everything, sizes and mips equal (FormatMismatch). CopySubresourceRegion:
+  // a box of the source (null: all) to x, y, z of the destination, in texels, whole 4x4 blocks of BC formats; buffers:
+  // bytes, in x and the box's left and right. Slices of arrays, faces of cubes and depth slices of volumes may be
+  // mixed. Beyond an edge, right before left, or onto itself (one subresource of a texture, overlapping bytes of a
+  // buffer): OutOfBounds; no such subresource: SubresourceOutOfRange. Empty boxes, here and above: nothing happens.
+  // Ends a pass. Copy* / vkCmdCopyBuffer, vkCmdCopyImage / glCopyNamedBufferSubData, glCopyImageSubData; staging
+  // textures are buffers there.
   virtual void CopyResource(IResource* dst, IResource* src) = 0;
   virtual void CopySubresourceRegion(IResource* dst, uint32_t dstSubresource, uint32_t x, uint32_t y, uint32_t z,
                                      IResource* src, uint32_t srcSubresource, const Box*) = 0;
@@ -208,9 +210,9 @@ class IContext {
                                   Format) = 0;
   // Each further mip of the view from the one above it, for every slice (and between depth slices), as linear light for
   // sRGB: the box filter where sizes are even, a linear filter at the texel's centre where they are odd. The texture
-  // needs RenderTarget and ShaderResource, as in Direct3D 10 (WrongBindFlag), the format FormatSupport::MipAutogen
-  // (CapMissing). Ends a pass. GenerateMips / vkCmdBlitImage / glBlitNamedFramebuffer, glGenerateTextureMipmap for 3D.
-  // The view's format is the texture's own (FormatMismatch).
+  // needs RenderTarget and ShaderResource, as in Direct3D 10 (WrongBindFlag), and one sample; the view's format is the
+  // texture's own (FormatMismatch) and has FormatSupport::MipAutogen (CapMissing). Ends a pass. GenerateMips /
+  // vkCmdBlitImage / glBlitNamedFramebuffer, glGenerateTextureMipmap for 3D.
   virtual void GenerateMips(IShaderResourceView*) = 0;
 
   // ---- Work: Draw* / vkCmdDraw* / glDraw*BaseVertexBaseInstance. Counts in vertices, indices, instances, groups; 0
@@ -219,7 +221,7 @@ class IContext {
   // LayoutMismatch (none, or an input is missing), TopologyMismatch (the geometry shader takes another),
   // IndexBufferMissing, NothingBound (no viewport; no compute shader), ShaderRejected (the driver links or makes no
   // pipeline of it). No pixel shader: depth only. Indirect: Direct3D 11's; bytes, multiples of 4, within a buffer of
-  // Bind::IndirectArgs (WrongBindFlag or OutOfBounds). At most 65535 groups in each dimension.
+  // Bind::IndirectArgs (WrongBindFlag or OutOfBounds). At most 65535 groups in each dimension (OutOfBounds).
   virtual void Draw(uint32_t vertexCount, uint32_t startVertex) = 0;
   virtual void DrawIndexed(uint32_t indexCount, uint32_t startIndex, int32_t baseVertex) = 0;
   virtual void DrawInstanced(uint32_t vertexCountPerInstance, uint32_t instanceCount, uint32_t startVertex,
@@ -355,21 +357,20 @@ class IDevice : public IObject {
   // Unsupported: a headless device (Caps::swapChain) or format. A window that is not there is an error, too.
   virtual Status CreateSwapChain(const SwapChainDesc&, Ref<ISwapChain>*) = 0;
 
-  // Makes a pipeline before its first draw: - / vkCreateGraphicsPipelines / glLinkProgram. No or a wrong shader:
-  // InvalidArg and NoVertexShader.
+  // Makes a pipeline before its first draw: - / vkCreateGraphicsPipelines / glLinkProgram. No or a wrong shader,
+  // or too many targets: InvalidArg and NoVertexShader.
   virtual Status PrecachePipeline(const PipelineKeyDesc&) = 0;
   // The size of the blob in bytes; copies it if `capacity` suffices (null, 0: only the size). 0 where the driver has
-  // none (Caps::pipelineCacheBlob), or no pipeline yet. - / vkGetPipelineCacheData / -. For DeviceDesc::pipelineCache; a
-  // blob of another
-  // driver, or a damaged one, is ignored
-  // (PipelineCacheRefused).
+  // none (Caps::pipelineCacheBlob), or no pipeline yet. - / vkGetPipelineCacheData / -. For
+  // DeviceDesc::pipelineCache; a blob of another driver, or a damaged one, is ignored (PipelineCacheRefused).
   virtual size_t GetPipelineCacheBlob(void* out, size_t capacity) = 0;
 
   virtual IContext* ImmediateContext() = 0;
   // Submits, waits, and copies one subresource to `out`: rows of rowPitch bytes (0: tightly packed), slices of a Tex3D
-  // one after the other, of blocks for BC, depth before stencil as in DXGI. Samples (resolve them), too little capacity
-  // or rowPitch, bytes beyond a buffer: InvalidArg and OutOfBounds or FormatMismatch. CopyResource to a staging
-  // resource and Map / vkCmdCopyImageToBuffer / glGetTextureSubImage, glGetNamedBufferSubData.
+  // one after the other, of blocks for BC, depth before stencil as in DXGI. InvalidArg: null (InvalidDesc), no such
+  // subresource (SubresourceOutOfRange), samples (FormatMismatch; resolve them), too little capacity or rowPitch, bytes
+  // beyond a buffer (OutOfBounds). CopyResource to a staging resource and Map / vkCmdCopyImageToBuffer /
+  // glGetTextureSubImage, glGetNamedBufferSubData.
   virtual Status ReadBack(ITexture*, uint32_t subresource, void* out, size_t capacity, uint32_t rowPitch = 0) = 0;
   virtual Status ReadBack(IBuffer*, uint32_t offset, uint32_t size, void* out) = 0;
   virtual Status WaitIdle() = 0;  // submits and waits for the GPU: an Event query / vkDeviceWaitIdle's job / glFinish's

@@ -33,7 +33,7 @@ enum class MsgCode : uint16_t {
   NothingBound = 303,   // a shader reads a register with nothing bound; it reads 0
   TopologyMismatch = 304,
   IndexBufferMissing = 305,
-  ViewMismatch = 306,       // [v] a view's kind or dimension is another than the shader declares
+  ViewMismatch = 306,       // a view's kind, dimension or type of texels is another than the shader declares
   StrideMismatch = 307,     // [v] a structured buffer's stride is another than the shader's
   ConstantsTooSmall = 308,  // [v] a constant buffer holds less than the shader's block
   ViewportOutside = 309,    // [v] a viewport shows nothing of the targets (Warning), or reaches beyond (Info)
@@ -45,7 +45,7 @@ enum class MsgCode : uint16_t {
   FormatMismatch = 404,         // formats, sizes, sample counts or kinds of resources that do not go together
   MappedInUse = 405,            // [v] a mapped resource is used by a draw, dispatch or copy
   MapOpen = 406,                // [v] a resource is mapped at EndFrame
-  PitchTooSmall = 407,          // [v] rows or slices of the caller's data overlap
+  PitchTooSmall = 407,          // rows or slices of the caller's data overlap
   // 5xx: queries and debug events
   QueryOrder = 500,  // also an EndEvent too many (Warning)
   QueryOpen = 501,   // [v] begun and never ended, or open at EndFrame

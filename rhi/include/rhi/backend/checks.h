@@ -29,6 +29,10 @@ TextureDesc BackBufferDesc(uint32_t width, uint32_t height, Format);
 // What a shader's view of a texture shows: what is not a whole cube to be read is an array of faces.
 TextureDim ShownDim(const TextureDesc&, const ViewDesc&, bool written);
 
+// Whether a view of a texture (null: of a structured buffer) is of the kind, dimension and type of texels that a shader
+// declares.
+bool ShowsAs(const TextureDesc*, const ViewDesc&, const ShaderResource& declared, bool written);
+
 uint32_t SliceCount(const TextureDesc&);  // array slices: 1 for a Tex3D
 uint32_t MipSize(uint32_t size, uint32_t mip);
 

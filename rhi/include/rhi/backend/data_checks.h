@@ -45,4 +45,13 @@ Misuse CheckCopy(const TexturePlace& dst, const TexturePlace& src, const Box*, b
 // `format` Unknown: the source's.
 Misuse CheckResolve(const TexturePlace& dst, const TexturePlace& src, Format);
 
+// `view` is the view's format, `support` that of the texture's.
+Misuse CheckGenerateMips(const TextureDesc&, Format view, FormatSupport support);
+
+// ReadBack; a null resource is a misuse, too. rowPitch 0: tightly packed.
+Misuse CheckReadBack(const BufferDesc*, uint32_t offset, uint32_t size, const void* out);
+Misuse CheckReadBack(const TextureDesc*, uint32_t subresource, const void* out, size_t capacity, uint32_t rowPitch);
+
+Misuse CheckGroups(uint32_t x, uint32_t y, uint32_t z);  // of a dispatch
+
 }  // namespace rhi::backend
