@@ -13,7 +13,8 @@ inline const CLI::Validator kFinite(
     [](std::string& text) {
       char* end = nullptr;
       const double value = std::strtod(text.c_str(), &end);
-      return std::isfinite(value) && end != text.c_str() ? std::string() : "must be a finite number, not " + text;
+      const bool isNumber = std::isfinite(value) && end != text.c_str() && *end == 0;
+      return isNumber ? std::string() : "must be a finite number, not " + text;
     },
     "");
 
