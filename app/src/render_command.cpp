@@ -1,18 +1,15 @@
 // fur render: a model, a camera and a technique become a PNG on one backend, or on each with their difference.
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "commands.h"
-#include "fur/builtin.h"
 #include "fur/file.h"
-#include "fur/gltf.h"
 #include "fur/image_io.h"
 #include "preset_flags.h"
 #include "render_job.h"
+#include "scene_flags.h"
 #include "stats.h"
 
 namespace app {
@@ -23,52 +20,20 @@ using fur::Error;
 using fur::ErrorCode;
 using fur::Result;
 
-constexpr uint32_t kMaxSide = 16384;
 constexpr uint32_t kMaxShells = 512;
-constexpr uint32_t kMaxAnimals = 10000;
-const glm::dvec3 kStudioGrey{0.30, 0.32, 0.34};  // linear; an outline of fur shows on it, light and dark
-
-// CLI11's ranges let NaN through.
-const CLI::Validator kFinite(
-    [](std::string& text) {
-      char* end = nullptr;
-      return std::isfinite(std::strtod(text.c_str(), &end)) && end != text.c_str() ? std::string() : "must be a finite number, not " + text;
-    },
-    "");
 
 struct RenderFlags {
-  std::string model, output = "fur.png", backend = "vulkan", size = "1280x720", technique = "shells", look = "correct", semantics,
-              preset, coat, stats, shellMode = "instanced", finMode = "auto", comb, eye, target, adapter, furFile, furMaterial,
-              background;
-  uint32_t samples = 1, shells = 0, shellsAtOnce = 1, count = 1, repeat = 1;
-  double fov = 0, zNear = 0, zFar = 0, furLength = 0, uvScale = 0;
-  double finThreshold = 0.25, finOpacity = 0.9, deadZone = 0.25, combStrength = 1, bend = 2, spacing = 0;
+  SceneFlags scene;
+  std::string output = "fur.png", backend = "vulkan", technique = "shells", preset, coat, stats, shellMode = "instanced",
+              finMode = "auto", adapter;
+  uint32_t samples = 1, shells = 0, shellsAtOnce = 1, repeat = 1;
+  double finThreshold = 0.25, finOpacity = 0.9, deadZone = 0.25, spacing = 0;
   bool noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
   std::set<std::string> given;  // the flags on the command line
 };
 
-Result<glm::dvec3> ParseVector(const std::string& text, const char* flag) {
-  glm::dvec3 v(0);
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &v.x, &v.y, &v.z, &rest) == 3 && std::isfinite(v.x + v.y + v.z)) return v;
-  return Error{ErrorCode::Usage, fmt::format("{} takes three finite numbers X,Y,Z, not '{}'", flag, text)};
-}
-
-Result<Done> ParseSize(const std::string& text, fur::RenderSettings* s) {
-  uint32_t w = 0, h = 0;
-  const char* const end = text.data() + text.size();
-  const auto [x, wError] = std::from_chars(text.data(), end, w);
-  const bool hasX = wError == std::errc() && x != end && *x == 'x';
-  const auto [rest, hError] = std::from_chars(hasX ? x + 1 : end, end, h);
-  if (hError != std::errc() || rest != end || w < 1 || h < 1 || w > kMaxSide || h > kMaxSide)
-    return Error{ErrorCode::Usage, fmt::format("--size takes WxH with sides of 1..{}, not '{}'", kMaxSide, text)};
-  s->width = w;
-  s->height = h;
-  return Done{};
-}
-
 // What belongs to technique shells alone, or to a preset too.
-Result<Done> SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
+void SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
   s->shellMode = Choose<fur::ShellMode>(f.shellMode, {{"instanced", fur::ShellMode::Instanced},
                                                       {"draws", fur::ShellMode::Draws},
                                                       {"amplified", fur::ShellMode::Amplified}});
@@ -82,102 +47,22 @@ Result<Done> SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
   s->backFaces = !f.noBackFaces;
   s->sortAnimals = !f.noSort;
   s->finDeadZone = f.deadZone;
-  s->bend = f.bend;
   s->spacing = f.spacing;
-  if (f.comb.empty()) return Done{};
-  Result<glm::dvec3> comb = ParseVector(f.comb, "--comb");
-  if (!comb) return comb.error();
-  const double length = glm::length(*comb);
-  if (!(length > 0)) return Error{ErrorCode::Usage, "--comb needs a direction other than 0,0,0"};
-  s->comb = *comb / length * f.combStrength;
-  return Done{};
 }
 
 Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   fur::RenderSettings s;
-  if (Result<Done> size = ParseSize(f.size, &s); !size) return size.error();
   s.samples = f.samples;
-  s.look = f.look == "seed" ? fur::Look::Seed : fur::Look::Correct;
+  s.look = f.scene.look == "seed" ? fur::Look::Seed : fur::Look::Correct;
   s.technique = f.technique == "seed" ? fur::Technique::Seed : fur::Technique::Shells;
   if (Result<Done> preset = SetPreset(f.preset, f.coat, f.given, &s); !preset) return preset.error();
-  // As published: a sheet, whatever the angle.
   const bool published = s.technique == fur::Technique::Seed || s.look == fur::Look::Seed;
-  const bool volume = f.semantics.empty() ? !published : f.semantics == "volume";
-  s.semantics = volume ? fur::Semantics::Volume : fur::Semantics::Sheet;
+  if (Result<Done> scene = SetScene(f.scene, published, &s); !scene) return scene.error();
   s.shells = f.shells;
   s.drawFins = !f.noFins;
   s.drawShells = !f.noShells;
-  if (Result<Done> shells = SetShellOptions(f, &s); !shells) return shells.error();
-  if (s.look == fur::Look::Seed) s.light = fur::PresetLight(s.preset);
-  s.background = s.look == fur::Look::Correct ? kStudioGrey : glm::dvec3(0);
-  if (f.background.empty()) return s;
-  Result<glm::dvec3> background = ParseVector(f.background, "--background");
-  if (!background) return background.error();
-  if (glm::any(glm::lessThan(*background, glm::dvec3(0))) || glm::any(glm::greaterThan(*background, glm::dvec3(1))))
-    return Error{ErrorCode::Usage, "--background takes values of 0..1, not '" + f.background + "'"};
-  s.background = *background;
+  SetShellOptions(f, &s);
   return s;
-}
-
-// FurParams keys that flags set, as the JSON that the loader applies last.
-std::string FurOverrides(const RenderFlags& f) {
-  nlohmann::json j = nlohmann::json::object();
-  if (f.furLength > 0) j["length_scale"] = f.furLength;
-  if (f.uvScale > 0) j["layer_uv_scale"] = f.uvScale;
-  return j.empty() ? std::string() : j.dump();
-}
-
-Result<fur::Model> LoadModel(const RenderFlags& f) {
-  if (f.model.empty() && (!f.furFile.empty() || !f.furMaterial.empty() || f.furLength > 0 || f.uvScale > 0))
-    return Error{ErrorCode::Usage, "--fur, --fur-material, --fur-length and --uv-scale need a MODEL; the built-in animal has its own coat"};
-  if (f.model.empty()) return fur::MakeBuiltinAnimal();
-  return fur::LoadGltf(f.model, {.furFile = f.furFile, .furOverrides = FurOverrides(f), .furMaterial = f.furMaterial});
-}
-
-// World positions of every vertex of every animal, with its fur: what a framing camera must show. A large field is
-// represented by each hundredth vertex.
-std::vector<glm::dvec3> FurredPoints(const fur::Model& model, const std::vector<glm::dmat4>& placements) {
-  std::vector<glm::dvec3> points;
-  const size_t step = placements.size() > 4 ? 100 : 1;
-  for (const glm::dmat4& placement : placements)
-    for (const fur::Part& part : model.parts) {
-      const fur::Primitive& primitive = model.primitives[part.primitive];
-      const fur::Material& m = model.materials[primitive.material];
-      const double length = m.fur ? m.fur->params.length : 0;
-      const glm::dmat4 toWorld = placement * part.transform;
-      for (size_t i = 0; i < primitive.vertices.size(); i += step) {
-        const fur::Vertex& v = primitive.vertices[i];
-        points.push_back(toWorld * glm::dvec4(glm::dvec3(v.position) + glm::dvec3(v.normal) * length, 1));
-      }
-    }
-  return points;
-}
-
-Result<fur::Camera> MakeCamera(const RenderFlags& f, const fur::Model& model, double scale, const RenderJob& job) {
-  const double aspect = double(job.settings.width) / job.settings.height;
-  const bool placed = !f.eye.empty() || !f.target.empty();
-  fur::Camera camera;
-  if (placed) {
-    camera.fovY = f.fov > 0 ? f.fov : 65;
-    camera.eye *= scale;
-    camera.zNear *= scale;
-    camera.zFar *= scale;
-  } else {
-    camera = fur::FramePoints(FurredPoints(model, job.placements), f.fov > 0 ? f.fov : 40, aspect, scale);
-  }
-  for (const auto& [flag, text, value] : {std::tuple{"--eye", &f.eye, &camera.eye}, {"--target", &f.target, &camera.target}}) {
-    if (text->empty()) continue;
-    Result<glm::dvec3> parsed = ParseVector(*text, flag);
-    if (!parsed) return parsed.error();
-    *value = *parsed;
-  }
-  if (f.zNear > 0) camera.zNear = f.zNear;
-  if (f.zFar > 0) camera.zFar = f.zFar;
-  if (camera.zFar <= camera.zNear) return Error{ErrorCode::Usage, "--far must be larger than --near"};
-  const glm::dvec3 view = camera.target - camera.eye;
-  if (glm::length(glm::cross(view, camera.up)) <= 1e-9 * glm::length(view))
-    return Error{ErrorCode::Usage, "--eye and --target must differ, and not be above one another: the view needs an up direction"};
-  return camera;
 }
 
 // out.png -> out.vulkan.png
@@ -228,20 +113,15 @@ void PrintDifference(const RenderOutcome& a, const RenderOutcome& b) {
              b.backend, 100 * d.EqualShare(), d.differing, d.pixels, d.largest, d.mean);
 }
 
-void PrintMessages(const std::vector<std::string>& messages) {
-  for (const std::string& m : messages) fmt::print(stderr, "fur: {}\n", m);
-}
-
 Result<RenderJob> PrepareJob(const RenderFlags& f, const fur::Model& model) {
   RenderJob job;
   Result<fur::RenderSettings> settings = MakeSettings(f);
   if (!settings) return settings.error();
   job.settings = *settings;
-  const double scale = fur::SceneScale(fur::ComputeBounds(model));
-  job.placements = fur::PlaceAnimals(f.count, scale);
-  Result<fur::Camera> camera = MakeCamera(f, model, scale, job);
-  if (!camera) return camera.error();
-  job.camera = *camera;
+  Result<SceneView> view = MakeView(f.scene, model, double(job.settings.width) / job.settings.height);
+  if (!view) return view.error();
+  job.camera = view->camera;
+  job.placements = view->placements;
   job.repeat = f.repeat;
   job.validate = f.validate;
   job.adapter = f.adapter;
@@ -254,7 +134,7 @@ Result<Done> Render(const RenderFlags& f) {
   for (const std::filesystem::path& file : OutputFiles(f))
     if (Result<Done> ok = fur::CheckWritable(file); !ok) return ok.error();
   if (Result<fur::RenderSettings> settings = MakeSettings(f); !settings) return settings.error();
-  Result<fur::Model> model = LoadModel(f);
+  Result<fur::Model> model = LoadModel(f.scene);
   if (!model) return model.error();
   PrintMessages(model->warnings);
   Result<RenderJob> job = PrepareJob(f, *model);
@@ -291,41 +171,22 @@ void AddShellFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--fin-threshold", f->finThreshold, "Edges this near to the silhouette grow a fading fin, 0..1")
       ->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
   c->add_option("--fin-opacity", f->finOpacity, "Opacity of a fin on the silhouette, 0..1")->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
-  c->add_option("--comb", f->comb, "Direction that the fur is combed to, X,Y,Z in the model's axes");
-  c->add_option("--comb-strength", f->combStrength, "Sideways offset of the tips, in fur lengths")->check(kFinite)->check(CLI::Range(0.0, 10.0))->capture_default_str();
-  c->add_option("--bend", f->bend, "Exponent of the height in the comb's offset: 1 straight, 2 bent")->check(kFinite)->check(CLI::Range(1.0, 8.0))->capture_default_str();
   c->add_option("--spacing", f->spacing, "Distance of two shells in the model's units; the length is N times it")->check(kFinite)->check(CLI::PositiveNumber);
   c->add_flag("--no-back-faces", f->noBackFaces, "Leave out the fur that is seen from behind");
   c->add_flag("--no-sort", f->noSort, "Draw the animals in the order given instead of back to front");
 }
 
 void AddFlags(CLI::App* c, RenderFlags* f) {
-  c->add_option("MODEL", f->model, "A .gltf or .glb file; without it, the built-in animal");
+  AddSceneFlags(c, &f->scene);
   c->add_option("-o,--output", f->output, "PNG to write; with --backend both, FILE.vulkan.png and FILE.gl.png")->capture_default_str();
   c->add_option("--backend", f->backend, "vulkan, gl, or both (renders with each and prints the difference)")
       ->check(CLI::IsMember({"vulkan", "gl", "both"}))->capture_default_str();
   c->add_option("--adapter", f->adapter, "Part of an adapter's name (fur info lists them); default: the first");
-  c->add_option("--size", f->size, "Width x height in pixels")->capture_default_str();
   c->add_option("--samples", f->samples, "Samples a pixel, 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
   c->add_option("--technique", f->technique, "shells, or seed: shells and fins as published")->check(CLI::IsMember({"shells", "seed"}))->capture_default_str();
-  c->add_option("--look", f->look, "Lighting and colour: seed (as published, raw values) or correct (sRGB, linear light)")
-      ->check(CLI::IsMember({"seed", "correct"}))->capture_default_str();
-  c->add_option("--semantics", f->semantics, "A shell is a sheet (default as published: technique or look seed), or a slab of a volume")
-      ->check(CLI::IsMember({"sheet", "volume"}));
   c->add_option("--shells", f->shells, "Number of shells, 1..512; default: as the coat says")->check(CLI::Range(1u, kMaxShells));
-  c->add_option("--eye", f->eye, "Eye, X,Y,Z; without --eye and --target the camera frames the animals");
-  c->add_option("--target", f->target, "Point looked at, X,Y,Z");
-  c->add_option("--fov", f->fov, "Vertical field of view in degrees; default 65, or 40 when framing")->check(kFinite)->check(CLI::Range(0.1, 179.0));
-  c->add_option("--near", f->zNear, "Near plane")->check(kFinite)->check(CLI::PositiveNumber);
-  c->add_option("--far", f->zFar, "Far plane")->check(kFinite)->check(CLI::PositiveNumber);
-  c->add_option("--count", f->count, "Number of animals")->check(CLI::Range(1u, kMaxAnimals))->capture_default_str();
   c->add_option("--repeat", f->repeat, "Timed frames after the first")->check(CLI::Range(0u, 100000u))->capture_default_str();
   c->add_option("--stats", f->stats, "JSON file for times and counts");
-  c->add_option("--fur", f->furFile, "JSON file of fur parameters (docs/fur.md)");
-  c->add_option("--fur-material", f->furMaterial, "Grow fur on the material of this name only");
-  c->add_option("--fur-length", f->furLength, "Fur length in the model's units")->check(kFinite)->check(CLI::PositiveNumber);
-  c->add_option("--uv-scale", f->uvScale, "Tiles of the fur volume across the UV square")->check(kFinite)->check(CLI::PositiveNumber);
-  c->add_option("--background", f->background, "Background, R,G,B in 0..1: linear, default a grey, for look correct; raw, default black, for look seed");
   c->add_flag("--no-fins", f->noFins, "Draw no fins");
   c->add_flag("--no-shells", f->noShells, "Draw no shells");
   AddPresetFlags(c, f);
