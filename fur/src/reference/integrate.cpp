@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kOpaque = 1e-6;         // transmittance at which nothing behind matters
 constexpr double kUnseen = 0.01;         // of the tolerance: less than this of a step's light is left out
+constexpr double kFaint = 4;            // times the tolerance: what a faint step shows
 constexpr int kMostSplits = 40;
 constexpr double kSameDepth = 1e-12;     // relative: walls of neighbours
 
@@ -157,12 +158,14 @@ Integrator::Step Integrator::Measure(const Segment& s, Node& from, Node& middle,
   const double other = width * s1, through = std::exp(-std::min(step.tau, other));
   step.error = through * -std::expm1(-std::abs(step.tau - other));
   if (through_ * step.error > tolerance_ && !last) return step;  // will be halved: no light yet
-  // Light that does not show is not computed.
-  const double least = kUnseen * tolerance_ * sum / (through_ * opaque);
+  // Light that hardly shows is not computed: the middle's alone where the whole step is faint.
+  const double shows = through_ * opaque;
+  const bool faint = shows < kFaint * tolerance_ && weights[1] > sum / 2;
+  const double least = sum * (faint ? 0.5 : std::min(0.3, kUnseen * tolerance_ / shows));
   double used = 0;
   Node* const nodes[] = {&from, &middle, &to};
   for (size_t i = 0; i < 3; ++i) {
-    if (!(weights[i] > 0) || (weights[i] < least && weights[i] < sum / 4)) continue;
+    if (!(weights[i] > 0) || weights[i] < least) continue;
     const glm::dvec3& light = Light(s, *nodes[i]);
     step.light += light * weights[i];
     used += weights[i];
