@@ -10,6 +10,7 @@ constexpr double kOpaque = 1e-6;         // transmittance at which nothing behin
 constexpr double kUnseen = 0.01;         // of the tolerance: less than this of a step's light is left out
 constexpr double kFaint = 4;            // times the tolerance: what a faint step shows
 constexpr int kMostSplits = 40;
+constexpr uint32_t kMostNodes = 1u << 22;  // of one ray: noise is not worth more
 constexpr double kSameDepth = 1e-12;     // relative: walls of neighbours
 
 }  // namespace
@@ -18,6 +19,7 @@ Radiance Integrator::Trace(const Ray& ray, const glm::dvec3& background) {
   ray_ = &ray;
   color_ = glm::dvec3(0);
   through_ = 1;
+  nodes_ = 0;
   culler_.Gather(ray, &candidates_);
   Collect(ray, candidates_);
   Sweep();
@@ -131,7 +133,8 @@ void Integrator::CrossOne(Lane& lane) {
   }
 }
 
-Integrator::Node Integrator::NodeAt(const Segment& s, double h) const {
+Integrator::Node Integrator::NodeAt(const Segment& s, double h) {
+  ++nodes_;
   return {scene_.Read(*s.prism, s.view, h), glm::dvec3(0), false};
 }
 
@@ -186,7 +189,7 @@ void Integrator::Accept(double tau, const glm::dvec3& light) {
 void Integrator::Advance(const Segment& s, Node& from, Node& to, int depth) {
   if (through_ <= kOpaque) return;
   Node middle = NodeAt(s, (from.point.h + to.point.h) / 2);
-  const bool last = depth == kMostSplits;
+  const bool last = depth == kMostSplits || nodes_ > kMostNodes;
   const Step step = Measure(s, from, middle, to, last);
   if (through_ * step.error > tolerance_ && !last) {
     Advance(s, from, middle, depth + 1);
@@ -199,7 +202,7 @@ void Integrator::Advance(const Segment& s, Node& from, Node& to, int depth) {
 // Overlapping fur is a mixture: depths add, and each shines by its share.
 void Integrator::CrossTogether(std::vector<Lane>& lanes, int depth) {
   if (through_ <= kOpaque) return;
-  const bool last = depth == kMostSplits;
+  const bool last = depth == kMostSplits || nodes_ > kMostNodes;
   double tau = 0, error = 0;
   glm::dvec3 light(0), least(1e300), most(-1e300);
   uint32_t pieces = 1;

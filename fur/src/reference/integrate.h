@@ -52,7 +52,7 @@ class Integrator {
   void Advance(const Segment&, Node& from, Node& to, int depth);
   void Accept(double tau, const glm::dvec3& light);
   Step Measure(const Segment&, Node& from, Node& middle, Node& to, bool last);
-  Node NodeAt(const Segment&, double h) const;
+  Node NodeAt(const Segment&, double h);
   const glm::dvec3& Light(const Segment&, Node&) const;
   uint32_t Pieces(const Segment&, const Node& from, const Node& to) const;
 
@@ -65,6 +65,7 @@ class Integrator {
   std::vector<Segment> segments_;
   glm::dvec3 color_{0};
   double through_ = 1;  // transmittance so far
+  uint32_t nodes_ = 0;
 };
 
 }  // namespace fur::reference

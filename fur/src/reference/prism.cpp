@@ -15,6 +15,9 @@ glm::dvec3 ToRay(const Ray& ray, const glm::dvec3& v) {
 double Cross2(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - b.x * a.y; }
 
 constexpr int kMostHalvings = 52;
+constexpr int kMostSplits = 24;  // of [0, 1] in search of two roots
+// Twice a shell's area as the ray sees it, relative to the square of its extent, that is nothing but rounding.
+constexpr double kNoArea = 1e-12;
 
 }  // namespace
 
@@ -38,6 +41,11 @@ PrismView::PrismView(const Prism& prism, const Ray& ray) : bend_(prism.bend), co
     a_[i] = ToRay(ray, combed_ ? prism.a[i] : prism.a[i] + prism.c[i]);
     c_[i] = combed_ ? ToRay(ray, prism.c[i]) : glm::dvec3(0);
   }
+  double extent = 0;
+  for (size_t i = 0; i < 3; ++i)
+    for (const glm::dvec3& side : {q_[i] - q_[(i + 1) % 3], a_[i], c_[i]})
+      extent = std::max(extent, glm::dot(side, side));
+  noArea_ = kNoArea * extent;
   for (size_t i = 0; i < 3; ++i) {
     const size_t j = (i + 1) % 3, k = (i + 2) % 3;
     edges_[i] = {Cross2(q_[j], q_[k]), Cross2(q_[j], a_[k]) + Cross2(a_[j], q_[k]),
@@ -66,7 +74,7 @@ PrismView::Point PrismView::At(double h) const {
   }
   Point point;
   const double d = f[0] + f[1] + f[2], dd = df[0] + df[1] + df[2];
-  if (d == 0) return point;
+  if (!(std::abs(d) > noArea_)) return point;
   std::array<glm::dvec3, 3> x;
   for (size_t i = 0; i < 3; ++i) {
     const auto n = int(i);
@@ -113,7 +121,7 @@ void PrismView::Isolate(const Edge& e, double h0, double h1, int depth, Cuts* ro
   const bool monotone = std::abs(slope) > slopeR;
   const double most = (std::abs(slope) + slopeR) * (h1 - h0);
   if (std::abs(f0) > most) return;
-  if (monotone || depth == kMostHalvings) {
+  if (monotone || depth == kMostSplits) {
     if ((f0 < 0) == (f1 < 0)) return;
     double low = h0, high = h1;
     for (int i = 0; i < 2 * kMostHalvings && high - low > 1e-16; ++i) {
@@ -130,7 +138,9 @@ void PrismView::Isolate(const Edge& e, double h0, double h1, int depth, Cuts* ro
 
 void PrismView::AddRoots(const Edge& e, Cuts* roots) const {
   if (combed_) {
-    Isolate(e, 0, 1, 0, roots);
+    // A wall that holds the ray, or one without an area, is noise all the way up.
+    const bool noise = std::all_of(e.begin(), e.end(), [&](double x) { return std::abs(x) <= noArea_; });
+    if (!noise) Isolate(e, 0, 1, 0, roots);
     return;
   }
   const double a = e[3], b = e[1], c = e[0], discriminant = b * b - 4 * a * c;
@@ -141,10 +151,20 @@ void PrismView::AddRoots(const Edge& e, Cuts* roots) const {
     if (root > 0 && root < 1) roots->Add(root);  // not for NaN
 }
 
+// A ray exactly in the wall between two prisms belongs to one of them: as if it were a little to the right, and less up
+// (Edelsbrunner and Muecke, Simulation of Simplicity, 1990).
+double PrismView::Side(size_t i, double h, double g) const {
+  const double f = Value(edges_[i], h, g);
+  if (f != 0) return f;
+  const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+  const glm::dvec3 along = (q_[k] - q_[j]) + (a_[k] - a_[j]) * h + (c_[k] - c_[j]) * g;
+  return along.y != 0 ? -along.y : along.x;
+}
+
 bool PrismView::Inside(double h) const {
   const double g = Power(h);
-  const double f0 = Value(edges_[0], h, g), f1 = Value(edges_[1], h, g), f2 = Value(edges_[2], h, g);
-  return ((f0 >= 0 && f1 >= 0 && f2 >= 0) || (f0 <= 0 && f1 <= 0 && f2 <= 0)) && f0 + f1 + f2 != 0;
+  const double f0 = Side(0, h, g), f1 = Side(1, h, g), f2 = Side(2, h, g);
+  return (f0 > 0 && f1 > 0 && f2 > 0) || (f0 < 0 && f1 < 0 && f2 < 0);
 }
 
 // Where the fur folds over, t turns around within the prism: split there.

@@ -36,7 +36,7 @@ class PrismView {
     double t = 0;
     double slope = 0;    // dt/dh
     double secant = 1;   // 1 / |m.w|, m the unit normal of the shell
-    bool valid = false;  // false: the ray lies in the shell's plane
+    bool valid = false;  // false: the ray lies in the shell's plane, or there is none
   };
   Point At(double h) const;
 
@@ -63,6 +63,7 @@ class PrismView {
   double Value(const Edge&, double h, double g) const;
   void AddRoots(const Edge&, Cuts*) const;
   void Isolate(const Edge&, double h0, double h1, int depth, Cuts*) const;
+  double Side(size_t edge, double h, double g) const;
   bool Inside(double h) const;
   bool MayMeet() const;
   void AddMonotone(double h0, double h1, std::vector<Interval>*) const;
@@ -70,7 +71,7 @@ class PrismView {
 
   std::array<glm::dvec3, 3> q_, a_, c_;
   std::array<Edge, 3> edges_;
-  double bend_;
+  double bend_, noArea_ = 0;
   bool combed_;
 };
 
