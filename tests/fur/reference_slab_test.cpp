@@ -42,7 +42,7 @@ TEST(ReferenceSlab, ConstantDensityIsTheClosedForm) {
       const SquareScene square{.look = Look::Correct, .color = {200, 150, 100, 255}, .coat = coat};
       const glm::dvec3 fur(MidpointShell(square, ray.direction, 4)), skin = SkinColor(square, ray.direction);
       const glm::dvec3 expected = glm::mix(skin, fur, -std::expm1(-tau));
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(got.color[c], expected[c], 1e-7) << degrees << " degrees, channel " << c;
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(got.color[c], expected[c], 1e-6) << degrees << " degrees, channel " << c;
     }
   }
 }
@@ -70,7 +70,7 @@ TEST(ReferenceSlab, VaryingCoatIsTheLimitOfManyShells) {
     }
 }
 
-// A denser texture than one texel: the mean over a period of exp(-tau) of a vertical ray.
+// Columns of texels by turns full and empty: from as opaque as full ones to nothing.
 TEST(ReferenceSlab, ReadsTheVolumeBilinearly) {
   Model model = FurredSquare(50, {200, 150, 100, 255}, ConstantCoat());
   FurVolume& volume = model.volumes[0];
@@ -79,8 +79,7 @@ TEST(ReferenceSlab, ReadsTheVolumeBilinearly) {
   const ReferenceScene scene(model, Precise(Look::Correct, Semantics::Sheet));
   double least = 1, most = 0;
   for (int i = 0; i < 400; ++i) {
-    const glm::dvec3 foot(0.1 + 0.37 * i, 3, 0);
-    if (foot.x > 45) break;
+    const glm::dvec3 foot(-45 + 0.22 * i, -44 + 0.21 * i, 0);  // whichever way the tiles lie
     const double got = scene.Trace(RayFrom(foot + glm::dvec3(0, 0, 9), foot)).furOpacity;
     least = std::min(least, got);
     most = std::max(most, got);

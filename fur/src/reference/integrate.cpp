@@ -6,7 +6,6 @@
 namespace fur::reference {
 namespace {
 
-constexpr double kOpaque = 1e-6;         // transmittance at which nothing behind matters
 constexpr double kUnseen = 0.01;         // of the tolerance: less than this of a step's light is left out
 constexpr double kFaint = 4;            // times the tolerance: what a faint step shows
 constexpr int kMostSplits = 40;
@@ -26,7 +25,7 @@ Radiance Integrator::Trace(const Ray& ray, const glm::dvec3& background) {
   Radiance out;
   out.skin = candidates_.skin.Found();
   out.furOpacity = 1 - through_;
-  const bool shows = out.skin && through_ > kOpaque;
+  const bool shows = out.skin && through_ > opaque_;
   out.color = color_ + (shows ? scene_.Shade(candidates_.skin, ray) : background) * through_;
   return out;
 }
@@ -73,7 +72,7 @@ void Integrator::Sweep() {
   std::vector<Lane> lanes;
   size_t next = 0;
   double t = 0;
-  while (through_ > kOpaque && (next < segments_.size() || !lanes.empty())) {
+  while (through_ > opaque_ && (next < segments_.size() || !lanes.empty())) {
     if (lanes.empty()) t = segments_[next].t0;
     const double same = kSameDepth * std::max(1.0, std::abs(t));
     for (; next < segments_.size() && segments_[next].t0 <= t + same; ++next)
@@ -113,7 +112,7 @@ void Integrator::CrossOne(Lane& lane) {
   const bool rising = h1 > h0;
   double h = h0;
   Node from = lane.from;
-  while (h != h1 && through_ > kOpaque) {
+  while (h != h1 && through_ > opaque_) {
     // The next middle (j + 1/2) / n beyond h.
     const double z = h * slices - 0.5;
     const double middle = ((rising ? std::floor(z + 1e-9) + 1 : std::ceil(z - 1e-9) - 1) + 0.5) / slices;
@@ -122,7 +121,7 @@ void Integrator::CrossOne(Lane& lane) {
     const uint32_t pieces = Pieces(*lane.segment, from, to);
     Node* start = &from;
     Node ends[2];
-    for (uint32_t i = 1; i <= pieces && through_ > kOpaque; ++i) {
+    for (uint32_t i = 1; i <= pieces && through_ > opaque_; ++i) {
       Node* const end = i == pieces ? &to : &ends[i % 2];
       if (i < pieces) *end = NodeAt(*lane.segment, h + (next - h) * i / pieces);
       Advance(*lane.segment, *start, *end, 0);
@@ -187,7 +186,7 @@ void Integrator::Accept(double tau, const glm::dvec3& light) {
 }
 
 void Integrator::Advance(const Segment& s, Node& from, Node& to, int depth) {
-  if (through_ <= kOpaque) return;
+  if (through_ <= opaque_) return;
   Node middle = NodeAt(s, (from.point.h + to.point.h) / 2);
   const bool last = depth == kMostSplits || nodes_ > kMostNodes;
   const Step step = Measure(s, from, middle, to, last);
@@ -201,7 +200,7 @@ void Integrator::Advance(const Segment& s, Node& from, Node& to, int depth) {
 
 // Overlapping fur is a mixture: depths add, and each shines by its share.
 void Integrator::CrossTogether(std::vector<Lane>& lanes, int depth) {
-  if (through_ <= kOpaque) return;
+  if (through_ <= opaque_) return;
   const bool last = depth == kMostSplits || nodes_ > kMostNodes;
   double tau = 0, error = 0;
   glm::dvec3 light(0), least(1e300), most(-1e300);

@@ -16,7 +16,11 @@ struct Radiance {
 class Integrator {
  public:
   Integrator(const FurScene& scene, const Culler& culler, double tolerance)
-      : scene_(scene), culler_(culler), tolerance_(tolerance), texelsOfAStep_(tolerance < 1e-4 ? 1 : 3) {}
+      : scene_(scene),
+        culler_(culler),
+        tolerance_(tolerance),
+        opaque_(0.01 * tolerance),
+        texelsOfAStep_(tolerance < 1e-4 ? 1 : 3) {}
 
   // Of one thread: keeps its working memory.
   Radiance Trace(const Ray&, const glm::dvec3& background);
@@ -58,7 +62,9 @@ class Integrator {
 
   const FurScene& scene_;
   const Culler& culler_;
-  double tolerance_, texelsOfAStep_;
+  double tolerance_;
+  double opaque_;  // transmittance at which nothing behind matters
+  double texelsOfAStep_;
   const Ray* ray_ = nullptr;
   Candidates candidates_;
   std::vector<PrismView::Interval> intervals_;
