@@ -1,0 +1,175 @@
+#include "scene.h"
+
+#include <cmath>
+
+namespace fur::reference {
+namespace {
+
+// The comb is relative to the fur's length: a part's scale changes its length, not its angle.
+glm::dvec3 CombIn(const glm::dmat4& transform, const glm::dvec3& comb) {
+  const glm::dmat3 linear(transform);
+  const double volume = std::abs(glm::determinant(linear));
+  if (!(volume > 0)) return glm::dvec3(0);
+  const glm::dvec3 turned = glm::inverse(linear) * comb * std::cbrt(volume);
+  return std::isfinite(turned.x + turned.y + turned.z) ? turned : glm::dvec3(0);
+}
+
+template <class T>
+T Mix(const glm::dvec3& b, const T& x, const T& y, const T& z) {
+  return x * b.x + y * b.y + z * b.z;
+}
+
+double Cross2(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - b.x * a.y; }
+
+}  // namespace
+
+// Edge functions in the ray's axes, as for the prisms: neighbours leave no gap.
+void Intersect(const SkinTriangle& triangle, uint32_t index, const Ray& ray, SkinHit* nearest) {
+  std::array<glm::dvec3, 3> q;
+  for (size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 v = triangle.p[i] - ray.origin;
+    q[i] = {glm::dot(ray.right, v), glm::dot(ray.up, v), glm::dot(ray.direction, v)};
+  }
+  const glm::dvec3 f(Cross2(q[1], q[2]), Cross2(q[2], q[0]), Cross2(q[0], q[1]));
+  const double d = f.x + f.y + f.z;
+  // right, up, direction: seen against the direction a front face turns clockwise in (right, up).
+  const bool front = f.x <= 0 && f.y <= 0 && f.z <= 0, back = f.x >= 0 && f.y >= 0 && f.z >= 0;
+  if (d == 0 || !(front || (back && triangle.doubleSided))) return;
+  const glm::dvec3 b = f / d;
+  const double t = b.x * q[0].z + b.y * q[1].z + b.z * q[2].z;
+  // Ties go to the first, whatever order the triangles come in.
+  if (!(t >= ray.tMin && t <= ray.tMax) || t > nearest->t || (t == nearest->t && index > nearest->triangle)) return;
+  *nearest = {t, index, b};
+}
+
+FurScene::FurScene(const Model& model, std::span<const glm::dmat4> placements, const ReferenceSettings& s)
+    : model_(model),
+      semantics_(s.semantics),
+      lighting_(s),
+      furnace_(s.furnace),
+      comb_(s.comb),
+      bend_(s.bend),
+      meshes_(MakeFurMeshes(model, s.look == Look::Correct ? FurTiling::Isometric : FurTiling::Model)) {
+  for (const Material& m : model.materials) {
+    const bool furred = m.fur && m.fur->params.enabled;
+    coats_.push_back(furred ? std::make_unique<Coat>(model, m, s.look) : nullptr);
+    skins_.push_back(std::make_unique<Skin>(model, m, s.look));
+  }
+  for (const FurMesh& mesh : meshes_) corners_.push_back(CornersOf(mesh));
+  for (const glm::dmat4& placement : placements)
+    for (const fur::Part& part : model.parts) AddPart(part, placement);
+}
+
+std::vector<FurScene::Corners> FurScene::CornersOf(const FurMesh& mesh) {
+  std::vector<Corners> corners(mesh.indices.size() / 3);
+  for (size_t i = 0; i < corners.size() * 3; ++i) {
+    const FurVertex& v = mesh.vertices[mesh.indices[i]];
+    Corners& c = corners[i / 3];
+    c.uv[i % 3] = {v.direction.w, v.normal.w};
+    c.tiles[i % 3] = glm::dvec2(v.furUv);
+    c.length[i % 3] = double(v.position.w);
+  }
+  return corners;
+}
+
+void FurScene::AddPart(const fur::Part& source, const glm::dmat4& placement) {
+  const glm::dmat4 toWorld = placement * source.transform;
+  const Primitive& primitive = model_.primitives[source.primitive];
+  Part part;
+  part.linear = glm::dmat3(toWorld);
+  part.normalToWorld = glm::transpose(glm::inverse(part.linear));
+  part.primitive = source.primitive;
+  part.material = primitive.material;
+  part.comb = CombIn(source.transform, comb_);
+  part.mirrored = glm::determinant(glm::dmat3(source.transform)) < 0;
+  for (uint32_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+    SkinTriangle t{{}, uint32_t(parts_.size()), i / 3, skins_[part.material]->DoubleSided()};
+    for (uint32_t k = 0; k < 3; ++k)
+      t.p[part.mirrored && k > 0 ? 3 - k : k] =
+          toWorld * glm::dvec4(glm::dvec3(primitive.vertices[primitive.indices[i + k]].position), 1);
+    skin_.push_back(t);
+  }
+  parts_.push_back(part);
+  if (Furred(part)) AddPrisms(part, toWorld);
+}
+
+void FurScene::AddPrisms(const Part& part, const glm::dmat4& toWorld) {
+  const FurMesh& mesh = meshes_[part.primitive];
+  const bool combed = part.comb != glm::dvec3(0);
+  for (uint32_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    Prism prism;
+    prism.part = uint32_t(parts_.size() - 1);
+    prism.triangle = i / 3;
+    prism.bend = combed ? bend_ : 1;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const FurVertex& v = mesh.vertices[mesh.indices[i + k]];
+      const double length = double(v.position.w) * coats_[part.material]->Length();
+      prism.p[k] = toWorld * glm::dvec4(glm::dvec3(v.position), 1);
+      prism.a[k] = part.linear * (glm::dvec3(v.direction) * length);
+      prism.c[k] = part.linear * (part.comb * length);
+    }
+    prisms_.push_back(prism);
+  }
+}
+
+std::array<const FurVertex*, 3> FurScene::Vertices(const Prism& prism) const {
+  const FurMesh& mesh = meshes_[parts_[prism.part].primitive];
+  const uint32_t* i = &mesh.indices[size_t(prism.triangle) * 3];
+  return {&mesh.vertices[i[0]], &mesh.vertices[i[1]], &mesh.vertices[i[2]]};
+}
+
+uint32_t FurScene::Slices(const Prism& prism) const { return coats_[parts_[prism.part].material]->Slices(); }
+
+FurPoint FurScene::Read(const Prism& prism, const PrismView& view, double h) const {
+  const PrismView::Point at = view.At(h);
+  FurPoint point{.h = h, .t = at.t, .b = at.b};
+  if (!at.valid) return point;
+  const Part& part = parts_[prism.part];
+  const Corners& c = corners_[part.primitive][prism.triangle];
+  point.uv = Mix(at.b, c.uv[0], c.uv[1], c.uv[2]);
+  point.tiles = Mix(at.b, c.tiles[0], c.tiles[1], c.tiles[2]);
+  const double length = Mix(at.b, c.length[0], c.length[1], c.length[2]);
+  // docs/accuracy.md: |dh| for sheets; |grad h| ds = |dh| / |m.w| for a volume.
+  const double density = coats_[part.material]->Density(point.uv, point.tiles, h, length);
+  point.density = density * (semantics_ == Semantics::Volume ? at.secant : 1);
+  return point;
+}
+
+double FurScene::Texels(const Prism& prism, const FurPoint& from, const FurPoint& to) const {
+  return coats_[parts_[prism.part].material]->Texels(to.tiles - from.tiles);
+}
+
+glm::dvec3 FurScene::Shade(const Prism& prism, const FurPoint& point, const Ray& ray) const {
+  if (furnace_) return *furnace_;
+  const Part& part = parts_[prism.part];
+  const auto [x, y, z] = Vertices(prism);
+  const glm::dvec3& b = point.b;
+  // The axis of the strand at this height: dX/dh.
+  const double bend = prism.bend == 1 ? 1 : bend_ * std::pow(point.h, bend_ - 1);
+  const auto mixed = [&](const glm::vec4& i, const glm::vec4& j, const glm::vec4& k) {
+    return Mix(b, glm::dvec3(i), glm::dvec3(j), glm::dvec3(k));
+  };
+  const FurFrame frame{part.linear * (mixed(x->direction, y->direction, z->direction) + part.comb * bend),
+                       part.normalToWorld * mixed(x->normal, y->normal, z->normal),
+                       part.linear * mixed(x->tangent, y->tangent, z->tangent),
+                       b.x * double(x->tangent.w) + b.y * double(y->tangent.w) + b.z * double(z->tangent.w)};
+  return coats_[part.material]->Shade(lighting_, ray.direction, frame, point.uv, point.tiles, point.h);
+}
+
+glm::dvec3 FurScene::Shade(const SkinHit& hit, const Ray& ray) const {
+  if (furnace_) return *furnace_;
+  const SkinTriangle& t = skin_[hit.triangle];
+  const Part& part = parts_[t.part];
+  const Primitive& primitive = model_.primitives[part.primitive];
+  const uint32_t* i = &primitive.indices[size_t(t.triangle) * 3];
+  const Vertex &x = primitive.vertices[i[0]], &y = primitive.vertices[i[part.mirrored ? 2 : 1]],
+               &z = primitive.vertices[i[part.mirrored ? 1 : 2]];
+  const glm::dvec3& b = hit.b;
+  const SkinFrame frame{part.normalToWorld * Mix(b, glm::dvec3(x.normal), glm::dvec3(y.normal), glm::dvec3(z.normal)),
+                        part.linear * Mix(b, glm::dvec3(x.tangent), glm::dvec3(y.tangent), glm::dvec3(z.tangent)),
+                        b.x * double(x.tangent.w) + b.y * double(y.tangent.w) + b.z * double(z.tangent.w)};
+  const auto uv = Mix(b, glm::dvec2(x.uv), glm::dvec2(y.uv), glm::dvec2(z.uv));
+  return skins_[part.material]->Shade(lighting_, ray.direction, frame, uv);
+}
+
+}  // namespace fur::reference
