@@ -20,7 +20,7 @@ namespace {
 class Uploader {
  public:
   Uploader(rhi::IDevice& device, const Model& model, const RenderSettings& settings)
-      : device_(device), model_(model), settings_(settings) {}
+      : device_(device), model_(model), settings_(settings), bounds_(ComputeBounds(model)) {}
 
   Result<GpuModel> Run() {
     GpuModel gpu;
@@ -28,7 +28,7 @@ class Uploader {
     if (settings_.technique == Technique::Shells)
       for (const FurMesh& mesh : MakeFurMeshes(model_, Correct() ? FurTiling::Isometric : FurTiling::Model))
         gpu.furMeshes.push_back(UploadFurMesh(mesh));
-    gpu.bounds = ComputeBounds(model_);
+    gpu.bounds = bounds_;
     for (uint32_t i = 0; i < model_.materials.size(); ++i) gpu.materials.push_back(MakeMaterial(i));
     for (const Part& p : model_.parts)
       gpu.parts.push_back({p.primitive, model_.primitives[p.primitive].material, p.transform,
@@ -233,7 +233,7 @@ class Uploader {
     for (size_t i = model_.parts.size(); i-- > 0;)
       if (model_.primitives[model_.parts[i].primitive].material == material)
         unit = std::cbrt(std::abs(glm::determinant(glm::dmat3(model_.parts[i].transform))));
-    return ComputeBounds(model_).Diameter() / 1000 * shells / (unit > 0 ? unit : 1);
+    return bounds_.Diameter() / 1000 * shells / (unit > 0 ? unit : 1);
   }
 
   // The groom belongs to technique shells; a preset knows the comb.
@@ -245,7 +245,7 @@ class Uploader {
     }
     if (settings_.bend) p.bend = *settings_.bend;
     if (settings_.technique != Technique::Shells) return PlainWithComb(p);
-    if (p.windLength == 0) p.windLength = std::max(ComputeBounds(model_).Diameter() / 2, 1e-6);
+    if (p.windLength == 0) p.windLength = std::max(bounds_.Diameter() / 2, 1e-6);
     p.specularScale = WetSpecularScale(p.specularScale, p.wetness);
     p.specularPower = WetSpecularPower(p.specularPower, p.wetness);
     return p;
@@ -337,6 +337,7 @@ class Uploader {
   rhi::IDevice& device_;
   const Model& model_;
   const RenderSettings& settings_;
+  const Bounds bounds_;
   std::map<std::pair<int32_t, MipFilter>, rhi::Ref<rhi::IShaderResourceView>> modelTextures_;
   bool failed_ = false;
   Error error_;

@@ -284,4 +284,16 @@ Misuse CheckGroups(uint32_t x, uint32_t y, uint32_t z) {
   return Wrong(MsgCode::OutOfBounds, "Dispatch of %u x %u x %u groups; each number is at most %u", x, y, z, kMax);
 }
 
+uint32_t ResultSize(QueryType type) {
+  switch (type) {
+    case QueryType::Event:
+    case QueryType::OcclusionPredicate: return sizeof(bool);
+    case QueryType::Occlusion:
+    case QueryType::Timestamp: return sizeof(uint64_t);
+    case QueryType::TimestampDisjoint: return sizeof(TimestampDisjoint);
+    case QueryType::PipelineStatistics: return sizeof(PipelineStatistics);
+  }
+  return 0;
+}
+
 }  // namespace rhi::backend

@@ -1,6 +1,7 @@
 // Clears and queries of the null device.
 #include "null_context.h"
 
+#include "rhi/backend/data_checks.h"
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -69,12 +70,6 @@ void ForEachTexel(const IView& view, const F& write) {
     std::vector<std::byte>& texels = t->texels[Subresource(v.firstMip, slice, t->Desc().mipLevels)];
     for (size_t at = 0; at + texelBytes <= texels.size(); at += texelBytes) write(texels.data() + at);
   }
-}
-
-uint32_t ResultSize(QueryType type) {
-  if (type == QueryType::TimestampDisjoint) return sizeof(TimestampDisjoint);
-  if (type == QueryType::PipelineStatistics) return sizeof(PipelineStatistics);
-  return type == QueryType::Occlusion || type == QueryType::Timestamp ? sizeof(uint64_t) : sizeof(bool);
 }
 
 }  // namespace
@@ -158,7 +153,7 @@ Status Context::GetData(IQuery* query, void* data, uint32_t size, bool) {
   const auto* q = static_cast<const Query*>(query);
   if (!q || !q->ended || q->active) return Refuse(MsgCode::QueryOrder, "", "GetData needs a query that was ended");
   if (!data) return Status::Ok;
-  if (size != ResultSize(q->Type())) return Refuse(MsgCode::OutOfBounds, "", "GetData: the result has another size");
+  if (size != backend::ResultSize(q->Type())) return Refuse(MsgCode::OutOfBounds, "", "GetData: the result has another size");
   std::memset(data, 0, size);
   if (q->Type() == QueryType::Event) *static_cast<bool*>(data) = true;
   if (q->Type() == QueryType::TimestampDisjoint) static_cast<TimestampDisjoint*>(data)->frequency = 1'000'000'000;

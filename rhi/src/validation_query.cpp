@@ -1,6 +1,8 @@
 // Queries, debug events, the end of a frame.
 #include "validation_context.h"
 
+#include "rhi/backend/data_checks.h"
+
 namespace rhi::validation {
 namespace {
 
@@ -8,18 +10,6 @@ const char* ToString(QueryType type) {
   constexpr auto kNames = std::to_array<const char*>(
       {"Event", "Occlusion", "OcclusionPredicate", "Timestamp", "TimestampDisjoint", "PipelineStatistics"});
   return size_t(type) < kNames.size() ? kNames[size_t(type)] : "no QueryType";
-}
-
-uint32_t ResultSize(QueryType type) {
-  switch (type) {
-    case QueryType::Event:
-    case QueryType::OcclusionPredicate: return sizeof(bool);
-    case QueryType::Occlusion:
-    case QueryType::Timestamp: return sizeof(uint64_t);
-    case QueryType::TimestampDisjoint: return sizeof(TimestampDisjoint);
-    case QueryType::PipelineStatistics: return sizeof(PipelineStatistics);
-  }
-  return 0;
 }
 
 bool HasBegin(QueryType type) { return type != QueryType::Event && type != QueryType::Timestamp; }
@@ -81,9 +71,9 @@ Status Context::GetData(IQuery* query, void* data, uint32_t size, bool flush) {
              ToString(query->Type()));
     return Status::InvalidArg;
   }
-  if (data && size != ResultSize(query->Type())) {
+  if (data && size != backend::ResultSize(query->Type())) {
     v_.Error(MsgCode::OutOfBounds, query, "GetData: %u bytes given, the result of type %s has %u", size,
-             ToString(query->Type()), ResultSize(query->Type()));
+             ToString(query->Type()), backend::ResultSize(query->Type()));
     return Status::InvalidArg;
   }
   return inner_.GetData(query, data, size, flush);

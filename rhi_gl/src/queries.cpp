@@ -1,5 +1,7 @@
 #include "queries.h"
 
+#include "rhi/backend/data_checks.h"
+
 #include <cstring>
 
 #include "context.h"
@@ -119,18 +121,6 @@ bool Query::Ready(bool flush) {
   return std::all_of(segments.begin(), segments.end(), [](const SegmentPtr& s) { return s->Ready(); });
 }
 
-uint32_t Query::ResultSize() const {
-  switch (type) {
-    case QueryType::Event:
-    case QueryType::OcclusionPredicate: return sizeof(bool);
-    case QueryType::Occlusion:
-    case QueryType::Timestamp: return sizeof(uint64_t);
-    case QueryType::TimestampDisjoint: return sizeof(TimestampDisjoint);
-    case QueryType::PipelineStatistics: return sizeof(PipelineStatistics);
-  }
-  return 0;
-}
-
 void Query::Result(void* out) const {
   std::array<uint64_t, QuerySegment::kMaxNames> sums{};
   for (const SegmentPtr& s : segments) s->AddTo(&sums);
@@ -204,9 +194,9 @@ Status Context::GetData(IQuery* query, void* data, uint32_t size, bool flush) {
                 "GetData needs a query that was ended");
     return Status::InvalidArg;
   }
-  if (data && size != q->ResultSize()) {
+  if (data && size != backend::ResultSize(q->type)) {
     log_.Report(Severity::Error, MsgCode::OutOfBounds, q->Name().c_str(), "GetData: %u bytes given, the result has %u",
-                size, q->ResultSize());
+                size, backend::ResultSize(q->type));
     return Status::InvalidArg;
   }
   if (!q->Ready(flush)) return Status::StillDrawing;

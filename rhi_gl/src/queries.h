@@ -51,7 +51,6 @@ class Query final : public Object<IQuery> {
   SegmentPtr TakeSegment();
   void EndGl();
   bool Ready(bool flush);
-  uint32_t ResultSize() const;
   void Result(void* out) const;
 
   const QueryType type;

@@ -1,4 +1,5 @@
 #include "context.h"
+#include "rhi/backend/data_checks.h"
 
 namespace rhi_vulkan {
 namespace {
@@ -86,9 +87,9 @@ Status Context::GetData(IQuery* target, void* data, uint32_t size, bool flush) {
                 "GetData before End; there is nothing to wait for");
     return Status::InvalidArg;
   }
-  if (data && size != query->ResultSize()) {
+  if (data && size != backend::ResultSize(query->Type())) {
     log_.Report(Severity::Error, MsgCode::OutOfBounds, query->Name().c_str(),
-                "GetData: %u bytes given, the result has %u", size, query->ResultSize());
+                "GetData: %u bytes given, the result has %u", size, backend::ResultSize(query->Type()));
     return Status::InvalidArg;
   }
   if (query->serial == core_->recording) {

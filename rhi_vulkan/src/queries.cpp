@@ -88,18 +88,6 @@ Status QueryHeap::AddResults(const QuerySegment& s, std::array<uint64_t, kMaxSeg
   return Status::Ok;
 }
 
-uint32_t Query::ResultSize() const {
-  switch (type_) {
-    case QueryType::Event:
-    case QueryType::OcclusionPredicate: return sizeof(bool);
-    case QueryType::Occlusion:
-    case QueryType::Timestamp: return sizeof(uint64_t);
-    case QueryType::TimestampDisjoint: return sizeof(TimestampDisjoint);
-    case QueryType::PipelineStatistics: return sizeof(PipelineStatistics);
-  }
-  return 0;
-}
-
 Status Query::Read(const QueryHeap& heap, void* data) const {
   std::array<uint64_t, kMaxSegmentValues> sums{};
   for (const auto& segment : segments)

@@ -50,7 +50,6 @@ class Query final : public VkObject<IQuery> {
  public:
   Query(std::shared_ptr<Core> core, QueryType type) : VkObject(std::move(core)), type_(type) {}
   QueryType Type() const override { return type_; }
-  uint32_t ResultSize() const;
   Status Read(const QueryHeap&, void* data) const;  // null: only whether it is there
 
   std::vector<std::shared_ptr<QuerySegment>> segments;

@@ -42,6 +42,9 @@ struct TexturePlace {
 };
 Misuse CheckCopy(const TexturePlace& dst, const TexturePlace& src, const Box*, bool same);
 
+// Bytes of what GetData gives for a query of this type; 0 for none.
+uint32_t ResultSize(QueryType);
+
 // `format` Unknown: the source's.
 Misuse CheckResolve(const TexturePlace& dst, const TexturePlace& src, Format);
 
