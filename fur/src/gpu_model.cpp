@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "driver_error.h"
 #include "fur/fur_mesh.h"
@@ -288,7 +289,10 @@ class Uploader {
     // The demo's shells lose coverage with height whatever the volume holds.
     const double falloff = AsShipped() ? 1 : p.heightFalloff;
     const double length = WetLength(FurLength(index, p, gpu->shells), p.wetness);
-    gpu->furVolume = Volume(volume, falloff);
+    // Uploaded once however many materials wear it: its mips are the dearest thing made here.
+    rhi::Ref<rhi::IShaderResourceView>& uploaded = furVolumes_[{fur.volume, p.thickness, falloff}];
+    if (!uploaded) uploaded = Volume(volume, falloff);
+    gpu->furVolume = uploaded;
     c->furShape = {float(length), float(p.layerUvScale), float(volume.layers), float(gpu->shells)};
     c->furLight = {float(p.selfShadow), float(p.specularPower), float(p.specularScale), float(falloff)};
     // The longest way through one shell's slab, and the published slabs that one shell stands for: docs/accuracy.md.
@@ -339,6 +343,8 @@ class Uploader {
   const RenderSettings& settings_;
   const Bounds bounds_;
   std::map<std::pair<int32_t, MipFilter>, rhi::Ref<rhi::IShaderResourceView>> modelTextures_;
+  // By volume, thickness and height falloff.
+  std::map<std::tuple<int32_t, double, double>, rhi::Ref<rhi::IShaderResourceView>> furVolumes_;
   bool failed_ = false;
   Error error_;
 };

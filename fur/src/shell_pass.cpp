@@ -7,8 +7,9 @@
 namespace fur {
 namespace {
 
-// As shaders_hlsl/fur_point.hlsli: the most that the geometry shader emits for each triangle.
-constexpr uint32_t kShellsInGs = 14, kVaryingScalars = 24;
+// The most that the geometry shader emits for each triangle, by its own word (shaders_hlsl/fur_point.hlsli).
+uint32_t ShellsInGs() { return shaders::shell_amplify_GSMain.reflection.gsMaxVertices / 3; }
+uint32_t VaryingScalars() { return shaders::shell_amplify_GSMain.reflection.gsOutputComponents; }
 
 // By + 1: look seed, + 2: volume, + 4: between slices, + 8: groomed.
 const rhi::ShaderBlob* const kPixelShaders[16] = {
@@ -25,18 +26,18 @@ const rhi::ShaderBlob* const kPixelShaders[16] = {
 
 Result<Done> CheckShellMode(const rhi::Caps& caps, const RenderSettings& settings) {
   if (settings.shellMode != ShellMode::Amplified || !settings.drawShells) return Done{};
-  if (settings.shellsAtOnce < 1 || settings.shellsAtOnce > kShellsInGs)
-    return Error{ErrorCode::Usage, "a geometry shader makes 1 to " + std::to_string(kShellsInGs) +
+  if (settings.shellsAtOnce < 1 || settings.shellsAtOnce > ShellsInGs())
+    return Error{ErrorCode::Usage, "a geometry shader makes 1 to " + std::to_string(ShellsInGs()) +
                                        " shells of a triangle at once, not " + std::to_string(settings.shellsAtOnce)};
   const std::string adapter = caps.adapter.data();
   if (!caps.geometryShader)
     return Error{ErrorCode::NoDevice, "shells by amplification need a geometry shader, which " + adapter +
                                           " does not have; draw them instanced"};
-  const uint32_t vertices = 3 * kShellsInGs, scalars = vertices * kVaryingScalars;
+  const uint32_t vertices = 3 * ShellsInGs(), scalars = vertices * VaryingScalars();
   if (vertices > caps.maxGSOutputVertices || scalars > caps.maxGSOutputComponents)
     return Error{ErrorCode::NoDevice,
                  "shells by amplification emit " + std::to_string(vertices) + " vertices of " +
-                     std::to_string(kVaryingScalars) + " scalars, " + std::to_string(scalars) + " in all; " + adapter +
+                     std::to_string(VaryingScalars()) + " scalars, " + std::to_string(scalars) + " in all; " + adapter +
                      " allows " + std::to_string(caps.maxGSOutputVertices) + " vertices and " +
                      std::to_string(caps.maxGSOutputComponents) + " scalars; draw them instanced"};
   return Done{};
