@@ -1,23 +1,16 @@
 // Counts on the real models, against the tables in the assets' SOURCE.md.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
+#include "assets.h"
 #include "fur/gltf.h"
 #include "fur/topology.h"
 
 namespace fur {
 namespace {
 
-std::filesystem::path AssetsDir() {
-  if (const char* dir = std::getenv("FUR_ASSETS")) return dir;
-#ifdef FUR_ASSETS_DIR
-  return FUR_ASSETS_DIR;
-#else
-  return {};
-#endif
-}
+using test::AssetsDir;
 
 struct EdgeCounts {
   size_t manifold = 0, boundary = 0;

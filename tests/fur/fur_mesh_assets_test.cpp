@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <vector>
 
+#include "assets.h"
 #include "fur/builtin.h"
 #include "fur/fur_mesh.h"
 #include "fur/gltf.h"
@@ -16,14 +16,7 @@
 namespace fur {
 namespace {
 
-std::filesystem::path AssetsDir() {
-  if (const char* dir = std::getenv("FUR_ASSETS")) return dir;
-#ifdef FUR_ASSETS_DIR
-  return FUR_ASSETS_DIR;
-#else
-  return {};
-#endif
-}
+using test::AssetsDir;
 
 using Position = std::array<float, 3>;
 template <class V>

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
+#include "assets.h"
 #include "fur/builtin.h"
 #include "fur/fur_uv.h"
 #include "fur/gltf.h"
@@ -16,14 +16,7 @@
 namespace fur {
 namespace {
 
-std::filesystem::path AssetsDir() {
-  if (const char* dir = std::getenv("FUR_ASSETS")) return dir;
-#ifdef FUR_ASSETS_DIR
-  return FUR_ASSETS_DIR;
-#else
-  return {};
-#endif
-}
+using test::AssetsDir;
 
 std::vector<glm::dvec2> ModelUv(const Primitive& p) {
   std::vector<glm::dvec2> uv;

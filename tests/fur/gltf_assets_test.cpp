@@ -1,28 +1,19 @@
 // The models that SOURCE.md files describe: counts and facts as stated there.
-#include <cstdlib>
 
+#include "assets.h"
 #include "gltf_builder.h"
 
 namespace fur::test {
 namespace {
 
-std::filesystem::path AssetsFolder() {
-  if (const char* folder = std::getenv("FUR_ASSETS")) return folder;
-#ifdef FUR_ASSETS_DIR
-  return FUR_ASSETS_DIR;
-#else
-  return {};
-#endif
-}
-
 class GltfAssets : public testing::Test {
  protected:
   void SetUp() override {
     std::error_code failed;
-    if (!std::filesystem::exists(AssetsFolder() / "cat", failed))
-      GTEST_SKIP() << "no test models in '" << AssetsFolder().string() << "'; set FUR_ASSETS";
+    if (!std::filesystem::exists(AssetsDir() / "cat", failed))
+      GTEST_SKIP() << "no test models in '" << AssetsDir().string() << "'; set FUR_ASSETS";
   }
-  Result<Model> LoadAsset(const std::string& name) { return LoadGltf(AssetsFolder() / name); }
+  Result<Model> LoadAsset(const std::string& name) { return LoadGltf(AssetsDir() / name); }
 };
 
 size_t Triangles(const Primitive& p) { return p.indices.size() / 3; }
@@ -68,10 +59,10 @@ TEST_F(GltfAssets, Cat) {
 TEST_F(GltfAssets, MadeTangentsAgreeWithTheCats) {
   const Result<Model> given = LoadAsset("cat/cat.gltf");
   ASSERT_TRUE(given) << Message(given);
-  std::ifstream in(AssetsFolder() / "cat/cat.gltf");
+  std::ifstream in(AssetsDir() / "cat/cat.gltf");
   Json json = Json::parse(in);
   for (Json& primitive : json["meshes"][0]["primitives"]) primitive["attributes"].erase("TANGENT");
-  json["buffers"][0]["uri"] = std::filesystem::absolute(AssetsFolder() / "cat/cat.bin").string();
+  json["buffers"][0]["uri"] = std::filesystem::absolute(AssetsDir() / "cat/cat.bin").string();
   json.erase("materials");
   for (Json& primitive : json["meshes"][0]["primitives"]) primitive.erase("material");
   const Folder folder;
