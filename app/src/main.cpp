@@ -32,6 +32,7 @@ int Main(int argc, char** argv) {
       "5 output cannot be written, 6 no usable driver, 7 rendering failed.");
   Command run;
   AddRenderCommand(app, &run);
+  AddBakeCommand(app, &run);
   AddInfoCommand(app, &run);
   try {
     app.parse(argc, argv);
