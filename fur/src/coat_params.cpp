@@ -118,7 +118,7 @@ Result<Done> ApplyObject(const Json& object, const std::string& group, const std
 }  // namespace
 
 StrandClass CoatParams::DefaultOvercoat() {
-  return {.density = 45, .length = 0.92, .radius = 0.03, .clump = 0.5};
+  return {.density = 45, .length = 0.92, .radius = 0.03, .swirl = 0.5, .noise = 0.7, .clump = 0.5};
 }
 
 std::span<const CoatKey> CoatKeys() {

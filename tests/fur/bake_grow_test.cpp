@@ -73,7 +73,7 @@ TEST(GrowStrandList, CountsAndClasses) {
   size_t over = 0;
   for (const Strand& s : strands) over += s.kind == StrandKind::Over;
   EXPECT_EQ(over, 45u * 4);
-  EXPECT_EQ(strands.size(), (45u + 100u) * 4);
+  EXPECT_EQ(strands.size(), (45u + 130u) * 4);
 }
 
 TEST(GrowStrandList, PlainStrandIsAnUprightCylinder) {
