@@ -112,7 +112,9 @@ void AddKeyFlags(CLI::App* c, BakeFlags* f) {
          FlagName(key), [f, k = &key](const std::string& text) { f->values[k] = text; },
          fmt::format("{} ({})", key.help, range))
         ->type_name(key.whole ? "N" : "X")
-        ->group(!isClass ? "The coat (range; default)" : key.group == std::string("under") ? "Undercoat" : "Overcoat");
+        ->group(!isClass                            ? "The coat (range; default)"
+                : key.group == std::string("under") ? "Undercoat"
+                                                    : "Overcoat");
   }
 }
 
@@ -125,7 +127,8 @@ void AddBakeCommand(CLI::App& app, Command* run) {
   c->add_option("--coat", flags->coatFile, "JSON file of parameters, as coat.json in a baked folder; flags win");
   c->add_option("--strands", flags->strands, "Also write the strands, as polylines, to this .json or .ply");
   c->add_option("--threads", flags->threads, "Threads, 0..256; 0: one for each core. The bytes do not depend on it")
-      ->check(CLI::Range(0u, 256u))->capture_default_str();
+      ->check(CLI::Range(0u, 256u))
+      ->capture_default_str();
   c->add_flag("--no-mips", flags->noMips, "Leave out the mips");
   c->add_flag("--progress", flags->progress, "Show the progress bar even where stderr is no terminal");
   AddKeyFlags(c, flags.get());

@@ -64,8 +64,10 @@ class Picture {
     Texel mean;
     std::vector<size_t> empty;
     for (size_t i = 0; i < texels_.size(); ++i) {
-      if (texels_[i].weight > 0) mean.Take(texels_[i]);
-      else empty.push_back(i);
+      if (texels_[i].weight > 0)
+        mean.Take(texels_[i]);
+      else
+        empty.push_back(i);
     }
     for (int ring = 0; ring < 4; ++ring) {
       std::vector<Texel> filled;
@@ -92,7 +94,8 @@ class Picture {
 // Where a strand stands among the texels: whole ones and a rest, so that adding whole ones changes no bit.
 struct Place {
   Place(dvec2 root, uint32_t size)
-      : x(static_cast<int>(std::floor(root.x * size))), y(static_cast<int>(std::floor(root.y * size))),
+      : x(static_cast<int>(std::floor(root.x * size))),
+        y(static_cast<int>(std::floor(root.y * size))),
         rest(root * double(size) - dvec2(x, y)) {}
   int x, y;
   dvec2 rest;
@@ -101,9 +104,12 @@ struct Place {
 SweptDisc MakePiece(const StrandPoint& p, const StrandPoint& q, double t0, double t1, dvec2 a, dvec2 b, double scale) {
   const dvec3 d = q.position - p.position;
   const double length = std::sqrt(glm::dot(d, d));
-  return {glm::mix(a, b, t0), glm::mix(a, b, t1),
-          glm::mix(p.radius, q.radius, t0) * scale, glm::mix(p.radius, q.radius, t1) * scale,
-          length > 0 ? d / length : dvec3(0), glm::mix(p.along, q.along, (t0 + t1) / 2)};
+  return {glm::mix(a, b, t0),
+          glm::mix(a, b, t1),
+          glm::mix(p.radius, q.radius, t0) * scale,
+          glm::mix(p.radius, q.radius, t1) * scale,
+          length > 0 ? d / length : dvec3(0),
+          glm::mix(p.along, q.along, (t0 + t1) / 2)};
 }
 
 // The part of the strand between two heights, as discs that sweep over the texels.

@@ -22,9 +22,7 @@ Error Refuse(const fs::path& folder, const std::string& why) {
   return {ErrorCode::OutputFailed, "cannot write " + folder.string() + ": " + why};
 }
 
-std::string SliceName(uint32_t slice) {
-  return (slice < 10 ? "0" : "") + std::to_string(slice) + ".png";
-}
+std::string SliceName(uint32_t slice) { return (slice < 10 ? "0" : "") + std::to_string(slice) + ".png"; }
 
 bool IsNumber(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });

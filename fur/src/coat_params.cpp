@@ -71,9 +71,12 @@ void Visit(Params& params, const CoatKey& key, Use use) {
   };
   const Entry& entry = inClass ? find(kClass) : find(kCoat);
   auto& kind = std::string_view(key.group) == "under" ? params.under : params.over;
-  if (const auto* whole = std::get_if<uint32_t CoatParams::*>(&entry.member)) use(params.**whole);
-  else if (const auto* number = std::get_if<double CoatParams::*>(&entry.member)) use(params.**number);
-  else use(kind.*std::get<double StrandClass::*>(entry.member));
+  if (const auto* whole = std::get_if<uint32_t CoatParams::*>(&entry.member))
+    use(params.**whole);
+  else if (const auto* number = std::get_if<double CoatParams::*>(&entry.member))
+    use(params.**number);
+  else
+    use(kind.*std::get<double StrandClass::*>(entry.member));
 }
 
 std::string NumberText(double x) {
@@ -85,7 +88,8 @@ std::string NumberText(double x) {
 
 const CoatKey* FindKey(const std::string& group, const std::string& name) {
   const std::span<const CoatKey> keys = CoatKeys();
-  const auto it = std::find_if(keys.begin(), keys.end(), [&](const CoatKey& k) { return group == k.group && name == k.name; });
+  const auto it =
+      std::find_if(keys.begin(), keys.end(), [&](const CoatKey& k) { return group == k.group && name == k.name; });
   return it == keys.end() ? nullptr : &*it;
 }
 
@@ -99,7 +103,8 @@ std::string KnownKeys(const std::string& group) {
 Result<Done> ApplyObject(const Json& object, const std::string& group, const std::string& where, CoatParams* params) {
   const auto refuse = [&](const std::string& what) { return Error{ErrorCode::InputMalformed, where + ": " + what}; };
   if (!object.is_object())
-    return refuse((group.empty() ? "" : "\"" + group + "\" ") + std::string("must be an object, not ") + object.type_name());
+    return refuse((group.empty() ? "" : "\"" + group + "\" ") + std::string("must be an object, not ") +
+                  object.type_name());
   for (const auto& [name, value] : object.items()) {
     const std::string path = group.empty() ? name : group + "." + name;
     if (group.empty() && (name == "under" || name == "over")) {
@@ -174,8 +179,10 @@ std::string CoatJson(const CoatParams& params) {
   nlohmann::ordered_json json;
   for (const CoatKey& key : CoatKeys()) {
     nlohmann::ordered_json& object = *key.group == '\0' ? json : json[key.group];
-    if (key.whole) object[key.name] = static_cast<uint64_t>(CoatValue(params, key));
-    else object[key.name] = CoatValue(params, key);
+    if (key.whole)
+      object[key.name] = static_cast<uint64_t>(CoatValue(params, key));
+    else
+      object[key.name] = CoatValue(params, key);
   }
   return json.dump(2) + "\n";
 }

@@ -95,8 +95,8 @@ Strand Grow(const StrandClass& kind, StrandKind which, dvec2 root, dvec2 swirl, 
   dvec3 x(0), t = UnitOr(dvec3(draws.lean * kind.spread, 1), dvec3(0, 0, 1));
   for (int i = 0; i <= steps; ++i) {
     const double along = double(i) / steps;
-    const dvec2 curl = kind.curl * Power(along, kind.curlExponent) *
-                       CosSinTurns(kind.curlTurns * along * length + draws.phase);
+    const dvec2 curl =
+        kind.curl * Power(along, kind.curlExponent) * CosSinTurns(kind.curlTurns * along * length + draws.phase);
     strand.points.push_back({x + dvec3(curl, 0), radius * Power(1 - along, kind.taper), along});
     t = UnitOr(t + dt * (pull + kind.noise * draws.WanderAt(along)), t);
     x += dt * t;

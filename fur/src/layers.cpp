@@ -1,8 +1,7 @@
-#include "fur/coat.h"
-
 #include <system_error>
 #include <vector>
 
+#include "fur/coat.h"
 #include "fur/image_io.h"
 
 namespace fur {

@@ -10,7 +10,8 @@ using glm::dvec2;
 // A tangent line that touches both discs has a normal n with n.a + ra = n.b + rb; so n.u = (ra - rb) / |b - a|, u the
 // direction from a to b. No such line: one disc holds the other.
 Footprint::Hull Footprint::MakeHull(const SweptDisc& p) {
-  Hull hull{p, {}, false, std::min(p.a.y - p.radiusA, p.b.y - p.radiusB), std::max(p.a.y + p.radiusA, p.b.y + p.radiusB)};
+  Hull hull{
+      p, {}, false, std::min(p.a.y - p.radiusA, p.b.y - p.radiusB), std::max(p.a.y + p.radiusA, p.b.y + p.radiusB)};
   const dvec2 d = p.b - p.a;
   const double length = std::sqrt(glm::dot(d, d));
   if (length <= std::abs(p.radiusA - p.radiusB)) return hull;

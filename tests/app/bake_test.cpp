@@ -21,10 +21,11 @@ std::string Bytes(const std::string& file) {
 TEST(BakeCommand, SameSeedSameBytesAtAnyNumberOfThreads) {
   const Folder folder;
   for (const char* threads : {"1", "2", "3", "7"})
-    ExpectSuccess(RunFur(Small(folder / threads, {"--threads", threads, "--strands", folder / threads + "/strands.ply"})));
+    ExpectSuccess(
+        RunFur(Small(folder / threads, {"--threads", threads, "--strands", folder / threads + "/strands.ply"})));
   ExpectSuccess(RunFur(Small(folder / "other", {"--seed", "2"})));
-  const std::vector<std::string> files{"00.png", "02.png", "tint/01.png", "mips/1/00.png", "fin.png",
-                                       "coat.json", "fur.json", "strands.ply"};
+  const std::vector<std::string> files{"00.png",  "02.png",    "tint/01.png", "mips/1/00.png",
+                                       "fin.png", "coat.json", "fur.json",    "strands.ply"};
   for (const std::string& file : files)
     for (const char* threads : {"2", "3", "7"})
       EXPECT_EQ(Bytes(folder / threads + "/" + file), Bytes(folder / "1" + "/" + file)) << file;
@@ -33,7 +34,8 @@ TEST(BakeCommand, SameSeedSameBytesAtAnyNumberOfThreads) {
 
 TEST(BakeCommand, CoatFileAndFlags) {
   const Folder folder;
-  ExpectSuccess(RunFur(Small(folder / "a", {"--over-length", "0.5", "--under-curl-turns=3", "--over-bias-y", "-0.25"})));
+  ExpectSuccess(
+      RunFur(Small(folder / "a", {"--over-length", "0.5", "--under-curl-turns=3", "--over-bias-y", "-0.25"})));
   const nlohmann::json coat = ReadJson(folder / "a" + "/coat.json");
   EXPECT_EQ(coat["size"], 32);
   EXPECT_EQ(coat["over"]["length"], 0.5);

@@ -53,7 +53,8 @@ TEST(BakeCoverage, OfCylindersIsExactInEachTexel) {
       for (const Strand& s : strands) {
         int inside = 0;
         for (int k = 0; k < kFine * kFine; ++k) {
-          const dvec2 p{(x + (k % kFine + 0.5) / kFine) / params.size, 1 - (y + (k / kFine + 0.5) / kFine) / params.size};
+          const dvec2 p{(x + (k % kFine + 0.5) / kFine) / params.size,
+                        1 - (y + (k / kFine + 0.5) / kFine) / params.size};
           inside += glm::length(Nearest(p - s.root)) * params.size < s.points[0].radius * scale;
         }
         open *= 1 - double(inside) / (kFine * kFine);
@@ -115,8 +116,10 @@ TEST(BakeCoverage, TilesToTheBit) {
       for (uint32_t x = 0; x < v.width; ++x) {
         const uint8_t *a = Texel(v, x, y, j), *b = Texel(moved, (x + 32) % 64, (y + 32) % 64, j);
         // Far from fur a texel has the slice's mean, which is summed in another order.
-        if (a[3] == 0) ASSERT_EQ(b[3], 0);
-        else ASSERT_TRUE(std::equal(a, a + 4, b)) << x << ' ' << y << ' ' << j;
+        if (a[3] == 0)
+          ASSERT_EQ(b[3], 0);
+        else
+          ASSERT_TRUE(std::equal(a, a + 4, b)) << x << ' ' << y << ' ' << j;
       }
 }
 

@@ -1,4 +1,6 @@
 // Baked coats on disk: whole or not at all, and the loader reads them.
+#include "fur/bake_files.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,7 +10,6 @@
 #include <sstream>
 
 #include "bake_helpers.h"
-#include "fur/bake_files.h"
 #include "fur/coat.h"
 #include "fur/file.h"
 #include "fur/image_io.h"
@@ -77,8 +78,8 @@ TEST_F(BakeFiles, LoaderDoesWithoutTintAndRefusesAnotherSize) {
 
 TEST_F(BakeFiles, FolderHoldsWhatItShould) {
   ASSERT_TRUE(WriteCoat({.folder = folder_ / "coat/", .strands = folder_ / "coat/strands.ply"}, coat_));
-  std::set<std::string> expected{"coat", "coat/tint", "coat/mips", "coat/fin.png", "coat/coat.json", "coat/fur.json",
-                                 "coat/strands.ply"};
+  std::set<std::string> expected{"coat",           "coat/tint",     "coat/mips",       "coat/fin.png",
+                                 "coat/coat.json", "coat/fur.json", "coat/strands.ply"};
   for (const std::string slice : {"00.png", "01.png", "02.png"}) {
     expected.insert({"coat/" + slice, "coat/tint/" + slice});
     for (const char* level : {"1", "2", "3", "4"})

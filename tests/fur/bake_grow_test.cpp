@@ -15,7 +15,8 @@ using glm::dvec3;
 
 TEST(BakeMath, PowerIsPow) {
   for (double x = 0; x <= 1; x += 1.0 / 64)
-    for (const double p : {0.0, 0.3, 0.75, 1.0, 2.0, 7.5}) EXPECT_NEAR(Power(x, p), std::pow(x, p), 1e-10) << x << ' ' << p;
+    for (const double p : {0.0, 0.3, 0.75, 1.0, 2.0, 7.5})
+      EXPECT_NEAR(Power(x, p), std::pow(x, p), 1e-10) << x << ' ' << p;
 }
 
 TEST(BakeMath, CosSinTurnsIsCosineAndSine) {
@@ -63,8 +64,18 @@ CoatParams Plain() {
   CoatParams p = SmallCoat();
   p.dominants = 1;
   p.under.density = 0;
-  p.over = {.density = 20, .length = 0.8, .lengthSpread = 0, .radius = 0.05, .radiusSpread = 0, .taper = 0,
-            .spread = 0, .swirl = 0, .noise = 0, .clump = 0, .tintSpread = 0, .warmthSpread = 0};
+  p.over = {.density = 20,
+            .length = 0.8,
+            .lengthSpread = 0,
+            .radius = 0.05,
+            .radiusSpread = 0,
+            .taper = 0,
+            .spread = 0,
+            .swirl = 0,
+            .noise = 0,
+            .clump = 0,
+            .tintSpread = 0,
+            .warmthSpread = 0};
   return p;
 }
 
@@ -88,8 +99,7 @@ TEST(GrowStrandList, TaperFollowsItsLaw) {
   CoatParams params = Plain();
   params.over.taper = 0.6;
   for (const Strand& s : GrowStrandList(params))
-    for (const StrandPoint& p : s.points)
-      EXPECT_NEAR(p.radius, 0.05 * std::pow(1 - p.position.z / 0.8, 0.6), 1e-9);
+    for (const StrandPoint& p : s.points) EXPECT_NEAR(p.radius, 0.05 * std::pow(1 - p.position.z / 0.8, 0.6), 1e-9);
 }
 
 TEST(GrowStrandList, LengthsHaveTheirMeanAndDeviation) {
@@ -106,8 +116,8 @@ TEST(GrowStrandList, LengthsHaveTheirMeanAndDeviation) {
   EXPECT_NEAR(std::sqrt(squares / n - mean * mean), 0.08, 0.006);
 }
 
-// Leaning by b for each fur length, the direction after h is (b h, 1) normalised, step by step; the tip of a strand with
-// t' = b x is an arc's: what counts is that it lies on the right side, by about b l^2 / 2.
+// Leaning by b for each fur length, the direction after h is (b h, 1) normalised, step by step; the tip of a strand
+// with t' = b x is an arc's: what counts is that it lies on the right side, by about b l^2 / 2.
 TEST(GrowStrandList, BiasLeansItsWay) {
   CoatParams params = Plain();
   params.over.biasX = 0.3, params.over.biasY = -0.2;
@@ -134,8 +144,7 @@ TEST(GrowStrandList, CurlIsAHelix) {
   CoatParams params = Plain();
   params.over.curl = 0.1, params.over.curlTurns = 2.5, params.over.curlExponent = 1;
   for (const Strand& s : GrowStrandList(params)) {
-    for (const StrandPoint& p : s.points)
-      EXPECT_NEAR(glm::length(dvec2(p.position)), 0.1 * p.position.z / 0.8, 1e-9);
+    for (const StrandPoint& p : s.points) EXPECT_NEAR(glm::length(dvec2(p.position)), 0.1 * p.position.z / 0.8, 1e-9);
     // 2.5 turns in a fur length are two in 0.8: the curl ends in the direction that it started in.
     const size_t last = s.points.size() - 1;
     ASSERT_EQ(last % 2, 0u);

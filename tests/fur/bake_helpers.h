@@ -24,7 +24,8 @@ inline double OnGrid(double x) { return std::floor(x * 0x1p20) * 0x1p-20; }
 
 // From the skin to `tip`, with one radius.
 inline Strand Straight(glm::dvec2 root, glm::dvec3 tip, double radius) {
-  return {StrandKind::Over, {OnGrid(root.x), OnGrid(root.y)}, {{glm::dvec3(0), radius, 0}, {tip, radius, 1}}, {1, 1, 1}};
+  return {
+      StrandKind::Over, {OnGrid(root.x), OnGrid(root.y)}, {{glm::dvec3(0), radius, 0}, {tip, radius, 1}}, {1, 1, 1}};
 }
 
 // A coat of few strands, quick to bake.

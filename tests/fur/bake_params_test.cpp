@@ -56,7 +56,8 @@ TEST(CoatJson, RangesAreRefusedByName) {
     EXPECT_TRUE(ApplyCoatJson(ObjectOf(key, key.max), "", &params));
     EXPECT_FALSE(ApplyCoatJson(ObjectOf(key, "many"), "", &params));
     EXPECT_FALSE(ApplyCoatJson(ObjectOf(key, nullptr), "", &params));
-    EXPECT_EQ(bool(ApplyCoatJson(ObjectOf(key, std::floor((key.min + key.max) / 2) + 0.25), "", &params)), !key.whole) << key.name;
+    EXPECT_EQ(bool(ApplyCoatJson(ObjectOf(key, std::floor((key.min + key.max) / 2) + 0.25), "", &params)), !key.whole)
+        << key.name;
   }
 }
 
@@ -117,7 +118,8 @@ TEST(CoatParameters, EachChangesTheBytes) {
   for (const CoatKey& key : CoatKeys()) {
     CoatParams params = base;
     const double value = CoatValue(params, key);
-    ASSERT_TRUE(SetCoatValue(key, key.whole ? value + 1 : value * 0.8 + (value == 0 ? 0.1 : 0), &params)) << PathOf(key);
+    ASSERT_TRUE(SetCoatValue(key, key.whole ? value + 1 : value * 0.8 + (value == 0 ? 0.1 : 0), &params))
+        << PathOf(key);
     const FurVolume after = bake(params);
     const bool isTint = std::string(key.name).starts_with("tint") || std::string(key.name).starts_with("warmth");
     EXPECT_EQ(after.pixels == before.pixels, isTint) << PathOf(key);

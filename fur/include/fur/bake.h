@@ -21,19 +21,19 @@ namespace fur {
 
 // Defaults are the undercoat's. Ranges and meaning, for people: CoatKeys().
 struct StrandClass {
-  double density = 130;                        // roots on a square of one fur length
-  double length = 0.62, lengthSpread = 0.13;   // of the whole strand; deviation relative to the mean
-  double radius = 0.022, radiusSpread = 0.12;  // at the root; deviation relative to the mean
-  double taper = 0.75;                         // radius (1 - h/l)^taper
+  double density = 130;                              // roots on a square of one fur length
+  double length = 0.62, lengthSpread = 0.13;         // of the whole strand; deviation relative to the mean
+  double radius = 0.022, radiusSpread = 0.12;        // at the root; deviation relative to the mean
+  double taper = 0.75;                               // radius (1 - h/l)^taper
   double curl = 0, curlTurns = 2, curlExponent = 1;  // sideways curl (h/l)^exponent (cos, sin)(2 pi turns h + phase)
-  double biasX = 0, biasY = 0;  // the way that all lean, more with each fur length grown
-  double spread = 0.1;          // deviation of the lean at the root, each strand its own
-  double swirl = 0.4;           // lean shared with neighbours, more with each fur length grown
-  double gravity = 0;           // pull towards the skin
-  double noise = 0.6;           // wander, each strand its own
-  double clump = 0.3, clumpExponent = 1.5;   // towards the nearest dominant strand by clump (h/l)^exponent
-  double tint = 1, tintSpread = 0.1;         // brightness, mean and deviation
-  double warmth = 0, warmthSpread = 0.03;    // red up, blue down; mean and deviation
+  double biasX = 0, biasY = 0;                       // the way that all lean, more with each fur length grown
+  double spread = 0.1;                               // deviation of the lean at the root, each strand its own
+  double swirl = 0.4;                                // lean shared with neighbours, more with each fur length grown
+  double gravity = 0;                                // pull towards the skin
+  double noise = 0.6;                                // wander, each strand its own
+  double clump = 0.3, clumpExponent = 1.5;           // towards the nearest dominant strand by clump (h/l)^exponent
+  double tint = 1, tintSpread = 0.1;                 // brightness, mean and deviation
+  double warmth = 0, warmthSpread = 0.03;            // red up, blue down; mean and deviation
 };
 
 struct CoatParams {
@@ -48,7 +48,8 @@ struct CoatParams {
   static StrandClass DefaultOvercoat();
 };
 
-// The table that flags, JSON and help are made from. `name` is the JSON key; those of a class stand in "under" or "over".
+// The table that flags, JSON and help are made from. `name` is the JSON key; those of a class stand in "under" or
+// "over".
 struct CoatKey {
   const char* group;  // "", "under", "over"
   const char* name;
@@ -73,7 +74,7 @@ struct StrandPoint {
 
 struct Strand {
   StrandKind kind = StrandKind::Under;
-  glm::dvec2 root{0};               // tiles, 0 <= root < 1, multiples of 2^-20: whole texels can be added without rounding
+  glm::dvec2 root{0};  // tiles, 0 <= root < 1, multiples of 2^-20: whole texels can be added without rounding
   std::vector<StrandPoint> points;  // at least two
   glm::dvec3 tint{1};               // factor of the fur's colour
 };

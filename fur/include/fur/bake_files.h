@@ -26,14 +26,14 @@ struct BakedCoat {
 };
 BakedCoat Bake(const CoatParams& params, uint32_t threads = 0, const BakeProgress& progress = {});
 
-// Strands as polylines, for looking: .json {"tile", "strands": [{"class", "tint", "points": [[x, y, z, radius], ...]}]},
-// or .ply with x, y, z, radius, class (0 undercoat, 1 overcoat) for each vertex and edges between neighbours; fur
-// lengths, the tile from 0 to CoatParams::tile. Usage for another extension, OutputFailed.
+// Strands as polylines, for looking: .json {"tile", "strands": [{"class", "tint", "points": [[x, y, z, radius],
+// ...]}]}, or .ply with x, y, z, radius, class (0 undercoat, 1 overcoat) for each vertex and edges between neighbours;
+// fur lengths, the tile from 0 to CoatParams::tile. Usage for another extension, OutputFailed.
 Result<Done> WriteStrands(const std::filesystem::path& file, const BakedCoat& coat);
 
-// What a folder of a baked coat holds: NN.png (the volume's slices, root first), tint/NN.png (its tint), mips/L/NN.png (its
-// mips, L >= 1; at height falloff 0), fin.png, coat.json (the parameters) and fur.json (a fur file that grows it on a
-// model). Folder and list of strands appear whole or not at all; an existing folder is replaced if it is empty or
+// What a folder of a baked coat holds: NN.png (the volume's slices, root first), tint/NN.png (its tint), mips/L/NN.png
+// (its mips, L >= 1; at height falloff 0), fin.png, coat.json (the parameters) and fur.json (a fur file that grows it
+// on a model). Folder and list of strands appear whole or not at all; an existing folder is replaced if it is empty or
 // holds nothing else than a baked coat.
 struct CoatOutput {
   std::filesystem::path folder;
