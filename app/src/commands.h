@@ -13,6 +13,7 @@ using Command = std::function<int()>;
 
 void AddRenderCommand(CLI::App& app, Command* run);
 void AddCompareCommand(CLI::App& app, Command* run);
+void AddBakeCommand(CLI::App& app, Command* run);
 void AddInfoCommand(CLI::App& app, Command* run);
 
 // Prints "fur: error: ..." as one line on stderr; returns the error's exit code.

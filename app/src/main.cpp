@@ -33,6 +33,7 @@ int Main(int argc, char** argv) {
   Command run;
   AddRenderCommand(app, &run);
   AddCompareCommand(app, &run);
+  AddBakeCommand(app, &run);
   AddInfoCommand(app, &run);
   try {
     app.parse(argc, argv);

@@ -4,7 +4,7 @@
 #include "builtin_mesh.h"
 #include "builtin_paint.h"
 #include "builtin_shape.h"
-#include "fur/coat.h"
+#include "fur/bake.h"
 
 namespace fur {
 namespace {
@@ -14,8 +14,7 @@ using namespace builtin;
 constexpr uint32_t kTextureSize = 512;
 constexpr double kFurLength = 0.075;  // 3.7 % of the body's length
 constexpr double kTileWidth = 0.24;   // on the skin: a strand of two texels is 1/530 of the body's length thick
-
-StrandParams Coat() { return {.seed = 7}; }
+constexpr uint32_t kCoatSeed = 7;
 
 // Texture coordinates of a ball: the hemisphere around `axis`, seen from the front, fills the unit square's disc.
 void FrontUvs(const Ball& ball, const glm::dvec3& axis, std::vector<Vertex>* vertices) {
@@ -68,7 +67,7 @@ Model MakeBuiltinAnimal() {
   Model model;
   model.name = "builtin";
   model.images = {std::move(images.color), std::move(images.length), std::move(images.direction), PaintEye(128)};
-  model.volumes = {GrowStrands(Coat())};
+  model.volumes = {GrowCoat(kCoatSeed)};
   model.materials = {SkinMaterial(atlas.uvPerUnit), GlossyMaterial("eye", glm::vec4(1), 0.08f),
                      GlossyMaterial("nose", {0.035f, 0.022f, 0.02f, 1}, 0.35f)};
   model.materials[1].baseColorTexture = {.image = 3, .wrapU = false, .wrapV = false};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "file_bytes.h"
+#include "fur/bake.h"
 #include "fur/coat.h"
 #include "fur/groom.h"
 #include "fur/image_io.h"
@@ -263,7 +264,7 @@ class Resolver {
 
   int32_t Volume(const std::vector<std::string>& layers) {
     const auto [it, isNew] = volumes_.try_emplace(layers, static_cast<int32_t>(model_.volumes.size()));
-    if (isNew) model_.volumes.push_back(layers.empty() ? GrowStrands(StrandParams{}) : LoadLayers(layers));
+    if (isNew) model_.volumes.push_back(layers.empty() ? GrowCoat(1) : LoadLayers(layers));
     return it->second;
   }
 

@@ -1,3 +1,6 @@
+#include <system_error>
+#include <vector>
+
 #include "fur/coat.h"
 #include "fur/image_io.h"
 
@@ -9,9 +12,7 @@ constexpr uint64_t kMaxVolumeTexels = uint64_t{1} << 28;  // 1 GiB
 
 std::string SizeText(uint32_t width, uint32_t height) { return std::to_string(width) + " x " + std::to_string(height); }
 
-}  // namespace
-
-Result<FurVolume> LoadFurLayers(std::span<const std::filesystem::path> files) {
+Result<FurVolume> LoadStack(std::span<const std::filesystem::path> files) {
   if (files.empty() || files.size() > kMaxLayers)
     return Error{ErrorCode::Usage, "a fur volume has 1 to " + std::to_string(kMaxLayers) + " layers, not " +
                                        std::to_string(files.size())};
@@ -35,6 +36,33 @@ Result<FurVolume> LoadFurLayers(std::span<const std::filesystem::path> files) {
     // The image reader gives alpha 255 where a file has none, which is coverage 1.
     volume.pixels.insert(volume.pixels.end(), image->pixels.begin(), image->pixels.end());
   }
+  return volume;
+}
+
+std::vector<std::filesystem::path> TintFiles(std::span<const std::filesystem::path> files) {
+  std::vector<std::filesystem::path> tint;
+  std::error_code ignored;
+  for (const std::filesystem::path& file : files) {
+    tint.push_back(file.parent_path() / "tint" / file.filename());
+    if (!std::filesystem::exists(tint.back(), ignored)) return {};
+  }
+  return tint;
+}
+
+}  // namespace
+
+Result<FurVolume> LoadFurLayers(std::span<const std::filesystem::path> files) {
+  Result<FurVolume> volume = LoadStack(files);
+  if (!volume) return volume;
+  const std::vector<std::filesystem::path> tintFiles = TintFiles(files);
+  if (tintFiles.empty()) return volume;
+  Result<FurVolume> tint = LoadStack(tintFiles);
+  if (!tint) return tint;
+  if (tint->width != volume->width || tint->height != volume->height)
+    return Error{ErrorCode::InputMalformed, tintFiles[0].string() + ": is " + SizeText(tint->width, tint->height) +
+                                                " pixels, but the fur layers are " +
+                                                SizeText(volume->width, volume->height)};
+  volume->tint = std::move(tint->pixels);
   return volume;
 }
 

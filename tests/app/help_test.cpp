@@ -7,7 +7,7 @@ namespace {
 TEST(Help, NamesTheCommands) {
   const Outcome o = RunFur({"--help"});
   ExpectSuccess(o);
-  for (const char* word : {"render", "compare", "info", "--version", "Exit codes"})
+  for (const char* word : {"render", "bake", "compare", "info", "--version", "Exit codes"})
     EXPECT_NE(o.out.find(word), std::string::npos) << word << " is not in:\n" << o.out;
 }
 

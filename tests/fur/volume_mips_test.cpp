@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "fur/bake.h"
 #include "fur/coat.h"
 #include "mip_laws.h"
 
@@ -30,6 +31,14 @@ void EmptyTop(FurVolume* v) {
   for (size_t i = texels * (v->layers - 1); i < texels * v->layers; ++i) v->pixels[i * 4 + 3] = 0;
 }
 
+// The default coat with more or fewer strands.
+FurVolume Grown(double density, uint32_t seed) {
+  CoatParams params;
+  params.seed = seed;
+  params.under.density *= density, params.over.density *= density;
+  return BakeVolume(params, GrowStrandList(params));
+}
+
 std::vector<TestVolume> TestVolumes() {
   std::vector<std::filesystem::path> files;
   for (int i = 0; i < 16; ++i)
@@ -39,9 +48,9 @@ std::vector<TestVolume> TestVolumes() {
   EXPECT_TRUE(cat) << "the cat's layers";
   std::vector<TestVolume> all;
   if (cat) all.push_back({"cat", *cat, 1});
-  all.push_back({"strands", GrowStrands({}), 0});
-  all.push_back({"dense", GrowStrands({.underStrands = 3000, .overStrands = 1000, .seed = 2}), 0});
-  all.push_back({"sparse", GrowStrands({.underStrands = 600, .overStrands = 200, .seed = 3}), 0});
+  all.push_back({"strands", Grown(1, 1), 0});
+  all.push_back({"dense", Grown(2, 2), 0});
+  all.push_back({"sparse", Grown(0.4, 3), 0});
   for (TestVolume& v : all) EmptyTop(&v.volume);
   return all;
 }

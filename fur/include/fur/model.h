@@ -20,11 +20,16 @@ struct Image {
 };
 
 // The fur volume: N0 slices, slice 0 at the root. RGB: packed strand tangent (t = 2 rgb - 1, tangent space as glTF's
-// normal maps: x along u, y up the picture, against v, z along the normal); A: coverage. Tiles in u and v. pixels.size() == width * height * layers * 4.
+// normal maps: x along u, y up the picture, against v, z along the normal); A: coverage. Tiles in u and v.
+// pixels.size() == width * height * layers * 4.
 struct FurVolume {
   std::string name;
   uint32_t width = 0, height = 0, layers = 0;
   std::vector<uint8_t> pixels;
+  // Either empty or as many bytes as `pixels`, slice for slice: what the strands at a texel have of their own, weighted
+  // by coverage. RGB: factor of the fur's colour, linear, byte / 128 (0 .. 1.99; 128 leaves the colour alone). A: offset
+  // from the strand's own root, byte / 255: 0 at its root, 1 at its tip, however long it is.
+  std::vector<uint8_t> tint;
 };
 
 struct Vertex {

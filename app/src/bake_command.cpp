@@ -1,0 +1,143 @@
+// fur bake: grows a coat and writes it as a folder of pictures.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <map>
+
+#include "commands.h"
+#include "fur/bake_files.h"
+
+namespace app {
+namespace {
+
+using fur::Done;
+using fur::Error;
+using fur::ErrorCode;
+using fur::Result;
+
+struct BakeFlags {
+  std::string output, coatFile, strands;
+  uint32_t threads = 0;
+  bool progress = false, noMips = false;
+  std::map<const fur::CoatKey*, std::string> values;  // as given
+};
+
+// --over-length for length of over.
+std::string FlagName(const fur::CoatKey& key) {
+  std::string name = (*key.group != '\0' ? std::string(key.group) + "-" : std::string()) + key.name;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return "--" + name;
+}
+
+Result<double> ParseNumber(const std::string& text, const std::string& flag) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (!text.empty() && end == text.c_str() + text.size()) return value;
+  return Error{ErrorCode::Usage, fmt::format("{} takes a number, not '{}'", flag, text)};
+}
+
+Result<fur::CoatParams> MakeParams(const BakeFlags& f) {
+  fur::CoatParams params;
+  if (!f.coatFile.empty())
+    if (Result<Done> read = fur::ReadCoatFile(f.coatFile, &params); !read) return read.error();
+  for (const auto& [key, text] : f.values) {
+    const std::string flag = FlagName(*key);
+    Result<double> value = ParseNumber(text, flag);
+    if (!value) return value.error();
+    if (Result<Done> set = fur::SetCoatValue(*key, *value, &params); !set)
+      return Error{ErrorCode::Usage, flag + " " + set.error().message};
+  }
+  if (Result<Done> ok = fur::CheckCoat(params); !ok) return ok.error();
+  return params;
+}
+
+// One line that is written over; nothing remains of it.
+class ProgressBar {
+ public:
+  explicit ProgressBar(bool shown) : shown_(shown) {}
+  ~ProgressBar() {
+    if (shown_) fmt::print(stderr, "\r{:{}}\r", "", kWidth + 24);
+  }
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  void Show(const char* what, double share) {
+    const int percent = static_cast<int>(share * 100);
+    if (!shown_ || percent == last_) return;
+    last_ = percent;
+    const int filled = percent * kWidth / 100;
+    fmt::print(stderr, "\r{:<8} [{:=<{}}{:{}}] {:3} %", what, "", filled, "", kWidth - filled, percent);
+    std::fflush(stderr);
+  }
+
+ private:
+  static constexpr int kWidth = 40;
+  bool shown_;
+  int last_ = -1;
+};
+
+void PrintSummary(const BakeFlags& f, const fur::BakedCoat& coat, double seconds) {
+  size_t over = 0;
+  for (const fur::Strand& strand : coat.strands) over += strand.kind == fur::StrandKind::Over;
+  fmt::print("{}: {} strands ({} undercoat, {} overcoat) in {} x {} x {} texels, {:.2f} s\n", f.output,
+             coat.strands.size(), coat.strands.size() - over, over, coat.params.size, coat.params.size,
+             coat.params.layers, seconds);
+}
+
+Result<Done> RunBake(const BakeFlags& f) {
+  const auto start = std::chrono::steady_clock::now();
+  Result<fur::CoatParams> params = MakeParams(f);
+  if (!params) return params.error();
+  const fur::CoatOutput output{f.output, f.strands, !f.noMips, f.threads};
+  if (Result<Done> ok = fur::CheckCoatOutput(output); !ok) return ok;
+  fur::BakedCoat coat;
+  {
+    ProgressBar bar(f.progress || isatty(STDERR_FILENO) != 0);
+    coat = fur::Bake(*params, f.threads, [&](double share) { bar.Show("baking", share * 0.6); });
+    const auto writing = [&](double share) { bar.Show("writing", 0.6 + share * 0.4); };
+    if (Result<Done> written = fur::WriteCoat(output, coat, writing); !written) return written;
+  }
+  PrintSummary(f, coat, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  return Done{};
+}
+
+void AddKeyFlags(CLI::App* c, BakeFlags* f) {
+  const fur::CoatParams defaults;
+  for (const fur::CoatKey& key : fur::CoatKeys()) {
+    const std::string range = fmt::format("{}..{}; {}", key.min, key.max, fur::CoatValue(defaults, key));
+    const bool isClass = *key.group != '\0';
+    c->add_option_function<std::string>(
+         FlagName(key), [f, k = &key](const std::string& text) { f->values[k] = text; },
+         fmt::format("{} ({})", key.help, range))
+        ->type_name(key.whole ? "N" : "X")
+        ->group(!isClass                            ? "The coat (range; default)"
+                : key.group == std::string("under") ? "Undercoat"
+                                                    : "Overcoat");
+  }
+}
+
+}  // namespace
+
+void AddBakeCommand(CLI::App& app, Command* run) {
+  auto flags = std::make_shared<BakeFlags>();
+  CLI::App* c = app.add_subcommand("bake", "Grow a coat of strands and write it as the layers of a fur volume");
+  c->add_option("-o,--output", flags->output, "Folder to write; appears whole or not at all")->required();
+  c->add_option("--coat", flags->coatFile, "JSON file of parameters, as coat.json in a baked folder; flags win");
+  c->add_option("--strands", flags->strands, "Also write the strands, as polylines, to this .json or .ply");
+  c->add_option("--threads", flags->threads, "Threads, 0..256; 0: one for each core. The bytes do not depend on it")
+      ->check(CLI::Range(0u, 256u))
+      ->capture_default_str();
+  c->add_flag("--no-mips", flags->noMips, "Leave out the mips");
+  c->add_flag("--progress", flags->progress, "Show the progress bar even where stderr is no terminal");
+  AddKeyFlags(c, flags.get());
+  c->callback([flags, run] {
+    *run = [flags] {
+      Result<Done> done = RunBake(*flags);
+      return done ? 0 : Fail(done.error());
+    };
+  });
+}
+
+}  // namespace app
