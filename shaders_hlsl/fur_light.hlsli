@@ -18,6 +18,10 @@ float3 SeedFurLight(float3 albedo, float3 strand, float3 fromEye) {
 }
 
 static const float kWrap = 0.5;  // how far light reaches around the body: g = (n.l + wrap) / (1 + wrap)
+// Share of the diffuse light that neighbouring strands have scattered before: it no longer knows the strand's direction,
+// and what it keeps is the mean of the sine over all directions, pi / 4.
+static const float kScattered = 0.5;
+static const float kMeanSine = 0.785398163;
 
 // Look correct: strand and surface normal are unit; height 0 root .. 1 tip.
 float3 FurLight(float3 albedo, float3 strand, float3 normal, float3 fromEye, float height) {
@@ -30,8 +34,9 @@ float3 FurLight(float3 albedo, float3 strand, float3 normal, float3 fromEye, flo
   float facing = saturate((Dot3(normal, toLight) + kWrap) / (1.0 + kWrap));
   float lobe = pow(max(0.0, sinTl * sinTe - tl * te), furLight.y) * facing;
   float ramp = furLight.x + (1.0 - furLight.x) * height;
-  float3 direct = lightDiffuse.rgb * albedo * (sinTl * facing) + lightSpecular.rgb * (lobe * furLight.z);
-  return lightAmbient.rgb * albedo + direct * ramp;
+  float diffuse = sinTl * (1.0 - kScattered) + kMeanSine * kScattered;
+  float3 direct = lightDiffuse.rgb * albedo * (diffuse * facing) + lightSpecular.rgb * (lobe * furLight.z);
+  return (lightAmbient.rgb * albedo + direct) * ramp;
 }
 
 #endif

@@ -167,6 +167,7 @@ TEST_P(Midpoint, CombMovesTheShells) {
 TEST_P(Midpoint, AnimalsAreSortedBackToFront) {
   Coat coat = UniformCoat(8, 100);
   coat.length = 0.5;
+  coat.selfShadow = 0.1;  // roots and tips differ, so that the order can be seen
   const Model model = FurredSquare(0.5, {220, 120, 40, 255}, coat);
   const Camera camera = CameraAt(4, 0, 0);
   const glm::dmat4 nearer = glm::translate(glm::dmat4(1), glm::dvec3(0.45, 0, 0.6));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace fur::test {
@@ -86,7 +87,8 @@ glm::dvec3 SeedShading(const SquareScene& s, const glm::dvec3& ray, const glm::d
   return lit * glm::mix(s.coat.selfShadow, 1.0, height);
 }
 
-// Kajiya and Kay with a wrapped cosine; the ramp darkens what comes from the light only.
+// Kajiya and Kay with a wrapped cosine; half of the diffuse light comes by way of other strands, with the mean of the
+// sine over all directions, pi / 4.
 glm::dvec3 CorrectShading(const SquareScene& s, const glm::dvec3& ray, const glm::dvec3& strand, double height) {
   constexpr double kWrap = 0.5;
   const glm::dvec3 l = -glm::normalize(s.light.direction);
@@ -95,9 +97,9 @@ glm::dvec3 CorrectShading(const SquareScene& s, const glm::dvec3& ray, const glm
   // sin a sin b - cos a cos b = -cos(a + b)
   const double lobe = std::pow(std::max(0.0, -std::cos(toLight + toEye)), s.coat.specularPower * (1 + 2 * s.groom.wetness));
   const glm::dvec3 rho = FurAlbedo(s, height);
-  const glm::dvec3 direct = rho * s.light.diffuse * std::sin(toLight) +
+  const glm::dvec3 direct = rho * s.light.diffuse * (0.5 * std::sin(toLight) + std::numbers::pi / 8) +
                             s.light.specular * (lobe * s.coat.specularScale * (1 + 3 * s.groom.wetness));
-  return rho * s.light.ambient + direct * (wrapped * glm::mix(s.coat.selfShadow, 1.0, height));
+  return (rho * s.light.ambient + direct * wrapped) * glm::mix(s.coat.selfShadow, 1.0, height);
 }
 
 double ShellOpacity(const SquareScene& s, const glm::dvec3& ray, uint32_t slice, double height) {

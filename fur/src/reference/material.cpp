@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "mips.h"
 
@@ -10,6 +11,8 @@ namespace {
 
 constexpr double kMostCoverage = 0.999;
 constexpr double kWrap = 0.5;           // of the wrapped cosine
+constexpr double kScattered = 0.5;      // share of diffuse light that no longer knows the strand's direction
+constexpr double kMeanSine = std::numbers::pi / 4;
 constexpr double kSeedPower = 10;       // the demo's highlight on skin
 
 glm::dvec3 UnitOr(const glm::dvec3& v, const glm::dvec3& fallback) {
@@ -134,9 +137,10 @@ glm::dvec3 Coat::Shade(const Lighting& lit, const glm::dvec3& ray, const FurFram
   const double facing = std::clamp((kWrap - glm::dot(normal, lit.travel)) / (1 + kWrap), 0.0, 1.0);
   const double cosine = std::max(0.0, Sine(tl) * Sine(te) - tl * te);
   const double lobe = facing > 0 ? std::pow(cosine, params_.specularPower) * facing : 0;
+  const double diffuse = glm::mix(Sine(tl), kMeanSine, kScattered);
   const glm::dvec3 direct =
-      light.diffuse * albedo * (Sine(tl) * facing) + light.specular * (lobe * params_.specularScale);
-  return light.ambient * albedo + direct * (r0 + (1 - r0) * h);
+      light.diffuse * albedo * (diffuse * facing) + light.specular * (lobe * params_.specularScale);
+  return (light.ambient * albedo + direct) * (r0 + (1 - r0) * h);
 }
 
 Skin::Skin(const Model& model, const Material& m, Look look)
