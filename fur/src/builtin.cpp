@@ -13,7 +13,7 @@ using namespace builtin;
 
 constexpr uint32_t kTextureSize = 512;
 constexpr double kFurLength = 0.075;  // 3.7 % of the body's length
-constexpr double kTileWidth = 0.24;   // on the skin: a strand of two texels is 1/530 of the body's length thick
+constexpr double kTileWidth = 0.20;   // on the skin: a strand of two texels is 1/640 of the body's length thick
 constexpr uint32_t kCoatSeed = 7;
 
 // Texture coordinates of a ball: the hemisphere around `axis`, seen from the front, fills the unit square's disc.
@@ -43,6 +43,7 @@ Material SkinMaterial(double uvPerUnit) {
   fur.params.length = kFurLength;
   fur.params.layerUvScale = 1 / (kTileWidth * uvPerUnit);
   fur.params.shells = 24;
+  fur.params.selfShadow = 0.35;
   fur.volume = 0;
   fur.lengthMap = 1;
   fur.directionMap = 2;
