@@ -15,7 +15,7 @@ BaseVarying VSMain(VertexIn v) {
   o.position = TransformPoint(objectToClip, v.position);
   o.uv = v.uv;
   o.normal = TransformVector(normalToWorld, v.normal);
-  o.tangent = float4(TransformVector(objectToEye, v.tangent.xyz), v.tangent.w);
+  o.tangent = float4(TransformVector(objectToEye, v.tangent.xyz), v.tangent.w * normalToWorld[3].w);
   o.fromEye = TransformPoint(objectToEye, v.position).xyz;
   return o;
 }

@@ -41,7 +41,7 @@ FUR_CBUFFER(MaterialConstants, b1) {
 FUR_CBUFFER(ObjectConstants, b2) {
   FUR_MATRIX objectToClip;
   FUR_MATRIX objectToEye;     // world axes, origin at the eye: keeps precision far from the world's origin
-  FUR_MATRIX normalToWorld;   // inverse transpose of the upper 3x3
+  FUR_MATRIX normalToWorld;   // inverse transpose of the upper 3x3; last element: -1 where the node mirrors, else 1
   FUR_FLOAT4 comb;            // xyz: sideways offset of the tip for fur of length 1, object axes; w: bend exponent, >= 1
   FUR_FLOAT4 gravity;         // xyz: likewise; variant SWAY (fur/groom.h), from here on
   FUR_FLOAT4 wind;            // xyz: likewise, at its strongest

@@ -39,7 +39,7 @@ FurVarying PointAt(FurVertex v, float height, float opacity) {
   o.fur = float3(height, v.position.w, opacity);
   o.normal = TransformVector(normalToWorld, v.normal.xyz);
   o.direction = TransformVector(objectToEye, v.direction.xyz + tip * (comb.w * pow(h, comb.w - 1.0)));
-  o.tangent = float4(TransformVector(objectToEye, v.tangent.xyz), v.tangent.w);
+  o.tangent = float4(TransformVector(objectToEye, v.tangent.xyz), v.tangent.w * normalToWorld[3].w);
   o.fromEye = TransformPoint(objectToEye, p).xyz;
   return o;
 }

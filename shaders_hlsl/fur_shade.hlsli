@@ -65,7 +65,7 @@ Fur ReadFur(float2 tiles, float height) {
 // Of a fin: what it reads is one slab.
 float FinAlpha(Fur fur) {
 #ifdef GROOM
-  return 1.0 - pow(1.0 - fur.coverage, fur.crowding);
+  return SlabOpacity(fur.coverage, fur.crowding);
 #else
   return fur.coverage;
 #endif
@@ -83,7 +83,7 @@ float ShellAlpha(Fur fur, float3 fromEye) {
   float cosine = abs(Dot3(UnitOr(m, float3(0, 0, 1)), UnitOr(fromEye, float3(0, 0, 1))));
   exponent = exponent / max(cosine, furSemantics.x);
 #endif
-  return 1.0 - pow(1.0 - fur.coverage, exponent);
+  return SlabOpacity(fur.coverage, exponent);
 }
 
 float3 StrandIn(Fur fur) {

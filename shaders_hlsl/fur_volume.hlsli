@@ -16,4 +16,7 @@ float3 UnpackStrand(float3 packed) {
   return Dot3(t, t) < 1.0 / 4096.0 ? float3(0, 0, 1) : Unit3(t);
 }
 
+// Of `exponent` slabs of this coverage behind each other: 1 - (1 - a)^e.
+float SlabOpacity(float coverage, float exponent) { return 1.0 - pow(1.0 - coverage, exponent); }
+
 #endif

@@ -12,10 +12,11 @@ float3 Cross3(float3 a, float3 b) {
 // As the built-in: not finite for a zero vector.
 float3 Unit3(float3 v) { return v * rsqrt(Dot3(v, v)); }
 
-// A zero vector gives `fallback`.
+// A zero vector gives `fallback`. The least square is far above the denormals, which some drivers flush, and below that of
+// a cross product of two edges of 1e-9.
 float3 UnitOr(float3 v, float3 fallback) {
   float d = Dot3(v, v);
-  return d > 1e-20 ? v * rsqrt(d) : fallback;
+  return d > 1e-36 ? v * rsqrt(d) : fallback;
 }
 
 float4 TransformPoint(float4x4 m, float3 p) { return ((m[0] * p.x + m[1] * p.y) + m[2] * p.z) + m[3]; }

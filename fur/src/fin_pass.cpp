@@ -118,7 +118,7 @@ void FinPass::Draw(rhi::IContext& context, const PassBinding& binding, const Gpu
     const GpuPart& part = model.parts[i];
     const GpuFurMesh& mesh = model.furMeshes[part.primitive];
     if (mesh.edgeCount == 0) continue;
-    context.RSSetState(binding.Cull(part, rhi::CullMode::None));  // a fin has no back
+    context.RSSetState(binding.Cull(in.placements[animal], part, rhi::CullMode::None));  // a fin has no back
     const GpuMaterial& material = model.materials[part.material];
     const size_t sways = material.sways, groomed = material.groomed;
     PassBinding::SetShaders(context, in, (compacted_ ? compactedVS_ : vs_)[sways].get(), gs_[sways].get(),

@@ -157,13 +157,24 @@ class SkinBuilder {
 
   // As many tiles on the whole skin as the model's map times `tiles` would put there, equally dense everywhere.
   static void TileEvenly(const Primitive& primitive, double tiles, FurMesh* mesh) {
-    const FurUv even = MakeFurUv(primitive);
+    const FurUv even = MakeFurUv(WithoutDegenerate(primitive));
     const double perUnit = tiles * MeanUvScale(primitive);
     for (size_t v = 0; v < primitive.vertices.size(); ++v) {
       // A volume's y axis runs up its pictures, against v (fur/model.h); the even map's frame runs along v.
       mesh->vertices[v].furUv = glm::vec4(glm::vec2(even.uv[v] * glm::dvec2(perUnit, -perUnit)), 0, 0);
       mesh->vertices[v].tangent = glm::vec4(glm::vec3(even.tangent[v]), even.handedness[v]);
     }
+  }
+
+  // A triangle with two corners in one place ties together what does not touch.
+  static Primitive WithoutDegenerate(Primitive p) {
+    const auto at = [&](size_t i) { return p.vertices[p.indices[i]].position; };
+    std::vector<uint32_t> kept;
+    for (size_t i = 0; i + 2 < p.indices.size(); i += 3)
+      if (at(i) != at(i + 1) && at(i + 1) != at(i + 2) && at(i + 2) != at(i))
+        kept.insert(kept.end(), {p.indices[i], p.indices[i + 1], p.indices[i + 2]});
+    p.indices = std::move(kept);
+    return p;
   }
 
   // The model's texture coordinates for one unit of length, in the mean over the skin; 1 where it has no area.

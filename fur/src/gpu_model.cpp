@@ -246,7 +246,7 @@ class Uploader {
     }
     if (settings_.bend) p.bend = *settings_.bend;
     if (settings_.technique != Technique::Shells) return PlainWithComb(p);
-    if (p.windLength == 0) p.windLength = std::max(bounds_.Diameter() / 2, 1e-6);
+    if (p.windLength == 0) p.windLength = std::max(bounds_.Diameter() / 2, 1e-30);
     p.specularScale = WetSpecularScale(p.specularScale, p.wetness);
     p.specularPower = WetSpecularPower(p.specularPower, p.wetness);
     return p;

@@ -260,4 +260,22 @@ Result<Done> ApplyFurJson(const Json& object, const std::string& where, bool ext
   return Done{};
 }
 
+Result<Done> CheckFurParams(const FurParams& params) {
+  const auto check = [](const FurKey& key, double value) -> Result<Done> {
+    const bool inside = value <= key.max && (key.minIsExcluded ? value > key.min : value >= key.min);
+    if (inside) return Done{};
+    std::ostringstream text;
+    text << key.name << " must be " << RangeText(key) << ", not " << value;
+    return Error{ErrorCode::InputMalformed, text.str()};
+  };
+  for (const Entry& e : Entries()) {
+    if (const auto* number = std::get_if<double FurParams::*>(&e.member))
+      if (Result<Done> ok = check(e.key, params.**number); !ok) return ok;
+    const auto* vector = std::get_if<glm::dvec3 FurParams::*>(&e.member);
+    for (int c = 0; vector && c < 3; ++c)
+      if (Result<Done> ok = check(e.key, (params.**vector)[c]); !ok) return ok;
+  }
+  return Done{};
+}
+
 }  // namespace fur

@@ -11,7 +11,10 @@ namespace {
 FrameConstants MakeFrameConstants(const FrameInputs& in) {
   FrameConstants f{};
   f.eyeWorld = glm::vec4(in.eye, 1);
-  f.lightDirection = glm::vec4(glm::normalize(in.light.direction), 0);
+  // No direction at all: from above.
+  const double length = glm::length(in.light.direction);
+  const bool isDirection = length > 0 && std::isfinite(length);
+  f.lightDirection = glm::vec4(isDirection ? in.light.direction / length : glm::dvec3(0, -1, 0), 0);
   f.lightDiffuse = glm::vec4(in.light.diffuse, 1);
   f.lightAmbient = glm::vec4(in.light.ambient, 1);
   f.lightSpecular = glm::vec4(in.light.specular, 1);
@@ -30,13 +33,15 @@ ObjectConstants MakeObjectConstants(const glm::dmat4& objectToWorld, const Frame
   ObjectConstants o{};
   o.objectToClip = in.worldToClip * objectToWorld;
   o.objectToEye = objectToEye;
-  o.normalToWorld = glm::dmat4(glm::transpose(glm::inverse(glm::dmat3(objectToWorld))));
+  o.normalToWorld = glm::dmat4(NormalMatrix(glm::dmat3(objectToWorld)));
+  // A mirrored cross product points the other way.
+  o.normalToWorld[3][3] = glm::determinant(glm::dmat3(objectToWorld)) < 0 ? -1 : 1;
   return o;
 }
 
 PassBinding::PassBinding(Creation& c)
-    : depthWrite(c.Depth({})),
-      depthRead(c.Depth({.depthWrite = false})),
+    : depthWrite(c.Depth({.depthFunc = rhi::Comparison::Greater})),
+      depthRead(c.Depth({.depthWrite = false, .depthFunc = rhi::Comparison::Greater})),
       opaque(c.Blend(rhi::Blend::One, rhi::Blend::Zero)),
       cullBack_(c.Raster(rhi::CullMode::Back, true)),
       cullFront_(c.Raster(rhi::CullMode::Back, false)),
@@ -94,9 +99,11 @@ void PassBinding::SetVertices(rhi::IContext& context, rhi::IBuffer* vertices, ui
   context.IASetIndexBuffer(indices, rhi::Format::R32_UInt, 0);
 }
 
-rhi::IRasterizerState* PassBinding::Cull(const GpuPart& part, rhi::CullMode cull) const {
+rhi::IRasterizerState* PassBinding::Cull(const glm::dmat4& placement, const GpuPart& part,
+                                         rhi::CullMode cull) const {
   if (cull == rhi::CullMode::None) return cullNone_.get();
-  return (part.mirrored == (cull == rhi::CullMode::Back) ? cullFront_ : cullBack_).get();
+  const bool mirrored = part.mirrored != (glm::determinant(glm::dmat3(placement)) < 0);
+  return (mirrored == (cull == rhi::CullMode::Back) ? cullFront_ : cullBack_).get();
 }
 
 rhi::Ref<rhi::IInputLayout> ModelLayout(Creation& c, rhi::IShader* vs) {
@@ -129,7 +136,8 @@ void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const Gp
     for (const GpuPart& part : model.parts) {
       const GpuMaterial& material = model.materials[part.material];
       const GpuGeometry& g = model.geometry[part.primitive];
-      context.RSSetState(binding.Cull(part, material.doubleSided ? rhi::CullMode::None : rhi::CullMode::Back));
+      context.RSSetState(binding.Cull(in.placements[animal], part,
+                                      material.doubleSided ? rhi::CullMode::None : rhi::CullMode::Back));
       rhi::IShader* ps = material.shells == 0 ? ps_.get() : material.wet ? wet_.get() : furred_.get();
       PassBinding::SetShaders(context, in, vs_.get(), nullptr, ps);
       binding.SetMaterial(context, material);

@@ -22,7 +22,7 @@ class PassBinding {
   // `counting`: the shader that replaces every pixel shader.
   static void SetShaders(rhi::IContext&, const FrameInputs&, rhi::IShader* vs, rhi::IShader* gs, rhi::IShader* ps);
   static void SetVertices(rhi::IContext&, rhi::IBuffer* vertices, uint32_t stride, rhi::IBuffer* indices);
-  rhi::IRasterizerState* Cull(const GpuPart&, rhi::CullMode) const;
+  rhi::IRasterizerState* Cull(const glm::dmat4& placement, const GpuPart&, rhi::CullMode) const;
 
   rhi::Ref<rhi::IDepthStencilState> depthWrite, depthRead;
   rhi::Ref<rhi::IBlendState> opaque;

@@ -61,7 +61,7 @@ class PublishedTechnique final : public ITechnique {
         const GpuMaterial* material = FinMaterial(model, part);
         const GpuGeometry& g = model.geometry[part.primitive];
         if (!material || g.finIndexCount == 0) continue;
-        context.RSSetState(binding_.Cull(part, traits_.finCull));
+        context.RSSetState(binding_.Cull(in.placements[animal], part, traits_.finCull));
         binding_.SetMaterial(context, *material);
         PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.finIndices.get());
         binding_.SetObject(context, in, animal, part, *material);
@@ -81,7 +81,7 @@ class PublishedTechnique final : public ITechnique {
         const GpuMaterial& material = model.materials[part.material];
         const GpuGeometry& g = model.geometry[part.primitive];
         if (material.shells == 0) continue;
-        context.RSSetState(binding_.Cull(part, rhi::CullMode::Back));
+        context.RSSetState(binding_.Cull(in.placements[animal], part, rhi::CullMode::Back));
         binding_.SetMaterial(context, material);
         PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.indices.get());
         binding_.SetObject(context, in, animal, part, material);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <optional>
 
@@ -124,12 +125,20 @@ class Presenter {
   rhi::Ref<rhi::IShaderResourceView> frame_;
 };
 
+bool IsFinite(const glm::dmat4& m) {
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r)
+      if (!std::isfinite(m[c][r])) return false;
+  return true;
+}
+
 class RendererImpl final : public Renderer {
  public:
   RendererImpl(rhi::IDevice& device, const RenderSettings& settings) : device_(device), settings_(settings) {}
 
   Result<Done> Init(const Model& model) {
     if (Result<Done> ok = CheckPreset(device_.GetCaps(), settings_); !ok) return ok.error();
+    if (Result<Done> ok = CheckModel(model); !ok) return ok.error();
     Result<GpuModel> uploaded = UploadModel(device_, model, settings_);
     if (!uploaded) return uploaded.error();
     model_ = std::move(*uploaded);
@@ -150,9 +159,7 @@ class RendererImpl final : public Renderer {
 
   void Draw(const Camera& camera, std::span<const glm::dmat4> placements, const Motion& motion) override {
     FrameCounts counts;
-    FrameInputs in = Inputs(camera, placements, &counts);
-    in.motion.time += motion.time;
-    in.motion.offsets = motion.offsets;
+    const FrameInputs in = Inputs(camera, placements, motion, &counts);
     DrawInto(targets_, in);
     if (settings_.samples > 1)
       Context().ResolveSubresource(targets_.resolved.get(), 0, targets_.color.get(), 0, targets_.format);
@@ -202,7 +209,7 @@ class RendererImpl final : public Renderer {
       if (status == rhi::Status::Ok) status = device_.CreateQuery({rhi::QueryType::Occlusion}, &q);
     if (status != rhi::Status::Ok) return DriverError(status, "cannot prepare the counting pass");
 
-    FrameInputs in = Inputs(camera, placements, &counts);
+    FrameInputs in = Inputs(camera, placements, Motion{}, &counts);
     in.countingShader = counting.get();
     in.passQueries = queries;
     DrawInto(targets, in);
@@ -217,15 +224,40 @@ class RendererImpl final : public Renderer {
  private:
   rhi::IContext& Context() { return *device_.ImmediateContext(); }
 
-  FrameInputs Inputs(const Camera& camera, std::span<const glm::dmat4> placements, FrameCounts* counts) const {
+  FrameInputs Inputs(const Camera& camera, std::span<const glm::dmat4> placements, const Motion& motion,
+                     FrameCounts* counts) {
     FrameInputs in;
     in.eye = camera.eye;
     in.worldToClip = ProjectionMatrix(camera, double(settings_.width) / settings_.height) * ViewMatrix(camera);
     in.light = settings_.light;
     in.placements = placements;
-    in.motion.time = settings_.time;
+    in.motion = motion;
+    const double time = settings_.time + motion.time;
+    in.motion.time = std::isfinite(time) ? time : 0;
     in.counts = counts;
+    // A camera that is nowhere sees nothing.
+    if (!IsFinite(in.worldToClip)) in.placements = {};
+    KeepFinite(&in);
     return in;
+  }
+
+  // An animal that is nowhere, or that a number without meaning moves, is not drawn.
+  void KeepFinite(FrameInputs* in) {
+    std::vector<size_t> kept;
+    for (size_t i = 0; i < in->placements.size(); ++i) {
+      const glm::dvec3 offset = in->OffsetOf(i);
+      if (IsFinite(in->placements[i]) && std::isfinite(offset.x + offset.y + offset.z)) kept.push_back(i);
+    }
+    if (kept.size() == in->placements.size()) return;
+    finitePlacements_.clear();
+    finiteOffsets_.clear();
+    for (const size_t i : kept) {
+      finitePlacements_.push_back(in->placements[i]);
+      finiteOffsets_.push_back(in->OffsetOf(i));
+    }
+    in->counts->skippedAnimals += in->placements.size() - kept.size();
+    in->placements = finitePlacements_;
+    in->motion.offsets = finiteOffsets_;
   }
 
   void DrawInto(const Targets& targets, const FrameInputs& in) {
@@ -235,7 +267,7 @@ class RendererImpl final : public Renderer {
     // Techniques that blend premultiplied leave the opacity of what they drew in alpha.
     const glm::vec4 background(settings_.background, settings_.technique == Technique::Seed ? 1 : 0);
     context.ClearRenderTargetView(targets.colorView.get(), &background.x);
-    context.ClearDepthStencilView(targets.depthView.get(), true, 1, false, 0);
+    context.ClearDepthStencilView(targets.depthView.get(), true, 0, false, 0);
     const rhi::Viewport viewport{.width = float(settings_.width), .height = float(settings_.height)};
     context.RSSetViewports(1, &viewport);
     technique_->Draw(context, model_, in);
@@ -252,6 +284,8 @@ class RendererImpl final : public Renderer {
   GpuModel model_;
   std::unique_ptr<ITechnique> technique_;
   std::optional<Presenter> presenter_;
+  std::vector<glm::dmat4> finitePlacements_;  // where not all are
+  std::vector<glm::dvec3> finiteOffsets_;
 };
 
 }  // namespace

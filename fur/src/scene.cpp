@@ -66,7 +66,13 @@ glm::dvec3 Recenter(const std::vector<glm::dvec3>& points, const glm::dvec3& cen
 glm::dmat4 ViewMatrix(const Camera& c) { return glm::lookAtRH(c.eye, c.target, c.up); }
 
 glm::dmat4 ProjectionMatrix(const Camera& c, double aspect) {
-  return glm::perspectiveRH_ZO(glm::radians(c.fovY), aspect, c.zNear, c.zFar);
+  return glm::perspectiveRH_ZO(glm::radians(c.fovY), aspect, c.zFar, c.zNear);
+}
+
+glm::dmat3 NormalMatrix(const glm::dmat3& m) {
+  const glm::dmat3 n = glm::transpose(glm::inverse(m));
+  if (std::isfinite(glm::dot(n[0], n[1]) + glm::dot(n[2], n[2]))) return n;
+  return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
 double SceneScale(const Bounds& b) {

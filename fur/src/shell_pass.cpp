@@ -102,7 +102,7 @@ void ShellPass::DrawSide(rhi::IContext& context, const PassBinding& binding, con
     if (mesh.indexCount == 0) continue;
     const size_t shader = (material.betweenSlices ? 1u : 0u) + (material.groomed ? 2u : 0u);
     PassBinding::SetShaders(context, in, vs_.For(material), gs_.For(material), ps_[shader].get());
-    context.RSSetState(binding.Cull(part, side.back ? rhi::CullMode::Front : rhi::CullMode::Back));
+    context.RSSetState(binding.Cull(in.placements[side.animal], part, side.back ? rhi::CullMode::Front : rhi::CullMode::Back));
     binding.SetMaterial(context, material);
     PassBinding::SetVertices(context, mesh.vertices.get(), sizeof(FurVertex), side.indices[i]);
     binding.SetObject(context, in, side.animal, part, material);

@@ -49,7 +49,7 @@ uint64_t EmittedTriangles(TestDevice& testDevice, const Model& model, const Rend
   rhi::IRenderTargetView* const views[] = {probe.colorView.get()};
   const rhi::Viewport viewport{.width = 96, .height = 64};
   context.OMSetRenderTargets(1, views, probe.depthView.get());
-  context.ClearDepthStencilView(probe.depthView.get(), true, 1, false, 0);
+  context.ClearDepthStencilView(probe.depthView.get(), true, 0, false, 0);
   context.RSSetViewports(1, &viewport);
   context.Begin(probe.query.get());
   (*technique)->Draw(context, *gpu, in);

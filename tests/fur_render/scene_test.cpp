@@ -98,7 +98,7 @@ TEST(Scene, LargerFieldsKeepTheSpacing) {
 
 TEST(Scene, PlacementIsDeterministic) { EXPECT_EQ(PlaceAnimals(225, 1), PlaceAnimals(225, 1)); }
 
-TEST(Scene, ProjectionMapsNearTo0AndFarTo1) {
+TEST(Scene, ProjectionMapsNearTo1AndFarTo0) {
   Camera camera;
   camera.zNear = 0.25;
   camera.zFar = 80;
@@ -108,8 +108,8 @@ TEST(Scene, ProjectionMapsNearTo0AndFarTo1) {
     const glm::dvec4 clip = p * glm::dvec4(v, 1);
     return glm::dvec3(clip) / clip.w;
   };
-  EXPECT_NEAR(ndc({0, 0, -0.25}).z, 0, 1e-12);
-  EXPECT_NEAR(ndc({0, 0, -80}).z, 1, 1e-12);
+  EXPECT_NEAR(ndc({0, 0, -0.25}).z, 1, 1e-12);
+  EXPECT_NEAR(ndc({0, 0, -80}).z, 0, 1e-12);
   const double top = std::tan(glm::radians(65.0) / 2);
   EXPECT_NEAR(ndc({0, top * 3, -3}).y, 1, 1e-12);
   EXPECT_NEAR(ndc({top * 1.5 * 3, 0, -3}).x, 1, 1e-12);

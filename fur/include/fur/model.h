@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fur/params.h"
+#include "fur/result.h"
 
 namespace fur {
 
@@ -95,5 +96,10 @@ struct Model {
 
 // Box of all parts' vertices in model space, without fur.
 Bounds ComputeBounds(const Model&);
+
+// What whoever draws a model relies on: every number finite, every index in range, pictures of the size that they say.
+// InputMalformed naming the first that is not, as "primitive 'ear', vertex 12: the normal is not finite". Loaders give
+// such models; one made by hand may be wrong.
+Result<Done> CheckModel(const Model&);
 
 }  // namespace fur

@@ -56,6 +56,9 @@ struct FurParams {
 // (length_units, layer_rgb, layer_alpha, source_*, note), reading source_specular_power and source_specular_scale.
 Result<Done> ApplyFurJson(const nlohmann::json& object, const std::string& where, bool extras, FurParams* params);
 
+// InputMalformed naming the first number that is outside of its key's range, or not a number.
+Result<Done> CheckFurParams(const FurParams& params);
+
 // One key of the table that the JSON reader, the flags and the schema are made from.
 enum class FurKind { Switch, Number, Count, Vector, File, Files };
 struct FurKey {

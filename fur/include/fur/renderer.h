@@ -110,7 +110,8 @@ class Renderer {
  public:
   virtual ~Renderer() = default;
 
-  // Records and submits one frame into the renderer's own target; does not wait.
+  // Records and submits one frame into the renderer's own target; does not wait. Animals whose placement or offset is not
+  // finite are not drawn; a camera that is not shows the background.
   virtual void Draw(const Camera&, std::span<const glm::dmat4> placements, const Motion&) = 0;
   void Draw(const Camera& camera, std::span<const glm::dmat4> placements) { Draw(camera, placements, Motion{}); }
   // Waits for the GPU. RenderFailed when the driver failed.

@@ -16,7 +16,14 @@ struct Camera {
   double zNear = 0.1, zFar = 1000;  // distances along the view
 };
 glm::dmat4 ViewMatrix(const Camera&);                    // world -> view
-glm::dmat4 ProjectionMatrix(const Camera&, double aspect);  // view -> clip, depth 0 at zNear, 1 at zFar
+// View -> clip, depth reversed: 1 at zNear, 0 at zFar. Floats are dense near 0, where perspective crowds what is far away, so
+// that planes of 1e-3 and 1e6 go together (N. Reed, "Depth precision visualized", 2015).
+glm::dmat4 ProjectionMatrix(const Camera&, double aspect);
+
+
+// What normals are multiplied with: the inverse transpose of `m`. Where a node flattens its mesh there is none; then the
+// cofactors, which are det times that.
+glm::dmat3 NormalMatrix(const glm::dmat3& m);
 
 // One directional light. Colours are in the look's own space: raw for look seed, linear for look correct.
 struct Light {

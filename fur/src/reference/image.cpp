@@ -151,6 +151,7 @@ class Picture {
 
 Result<ReferenceImage> RenderReference(const Model& model, const Camera& camera, std::span<const glm::dmat4> placements,
                                        const ReferenceSettings& settings) {
+  if (Result<Done> ok = CheckModel(model); !ok) return ok.error();
   const Result<Crop> crop = CropOf(settings);
   if (!crop) return crop.error();
   const FurScene scene(model, placements, settings);

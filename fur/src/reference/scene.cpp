@@ -77,11 +77,11 @@ void FurScene::AddPart(const fur::Part& source, const glm::dmat4& placement) {
   const Primitive& primitive = model_.primitives[source.primitive];
   Part part;
   part.linear = glm::dmat3(toWorld);
-  part.normalToWorld = glm::transpose(glm::inverse(part.linear));
+  part.normalToWorld = NormalMatrix(part.linear);
   part.primitive = source.primitive;
   part.material = primitive.material;
   part.comb = CombIn(source.transform, comb_);
-  part.mirrored = glm::determinant(glm::dmat3(source.transform)) < 0;
+  part.mirrored = glm::determinant(part.linear) < 0;
   for (uint32_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
     SkinTriangle t{{}, uint32_t(parts_.size()), i / 3, skins_[part.material]->DoubleSided()};
     for (uint32_t k = 0; k < 3; ++k)
@@ -152,7 +152,8 @@ glm::dvec3 FurScene::Shade(const Prism& prism, const FurPoint& point, const Ray&
   const FurFrame frame{part.linear * (mixed(x->direction, y->direction, z->direction) + part.comb * bend),
                        part.normalToWorld * mixed(x->normal, y->normal, z->normal),
                        part.linear * mixed(x->tangent, y->tangent, z->tangent),
-                       b.x * double(x->tangent.w) + b.y * double(y->tangent.w) + b.z * double(z->tangent.w)};
+                       (b.x * double(x->tangent.w) + b.y * double(y->tangent.w) + b.z * double(z->tangent.w)) *
+                           part.Handedness()};
   return coats_[part.material]->Shade(lighting_, ray.direction, frame, point.uv, point.tiles, point.h);
 }
 
@@ -167,7 +168,8 @@ glm::dvec3 FurScene::Shade(const SkinHit& hit, const Ray& ray) const {
   const glm::dvec3& b = hit.b;
   const SkinFrame frame{part.normalToWorld * Mix(b, glm::dvec3(x.normal), glm::dvec3(y.normal), glm::dvec3(z.normal)),
                         part.linear * Mix(b, glm::dvec3(x.tangent), glm::dvec3(y.tangent), glm::dvec3(z.tangent)),
-                        b.x * double(x.tangent.w) + b.y * double(y.tangent.w) + b.z * double(z.tangent.w)};
+                        (b.x * double(x.tangent.w) + b.y * double(y.tangent.w) + b.z * double(z.tangent.w)) *
+                            part.Handedness()};
   const auto uv = Mix(b, glm::dvec2(x.uv), glm::dvec2(y.uv), glm::dvec2(z.uv));
   return skins_[part.material]->Shade(lighting_, ray.direction, frame, uv);
 }

@@ -57,7 +57,8 @@ class FurScene {
     glm::dmat3 linear{1}, normalToWorld{1};
     uint32_t primitive = 0, material = 0;
     glm::dvec3 comb{0};     // in the part's axes
-    bool mirrored = false;  // its transform turns the winding around
+    bool mirrored = false;  // its transform turns the winding around, and what cross products say
+    double Handedness() const { return mirrored ? -1 : 1; }
   };
   void AddPart(const fur::Part&, const glm::dmat4& placement);
   void AddPrisms(const Part&, const glm::dmat4& toWorld);
