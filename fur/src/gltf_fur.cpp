@@ -10,6 +10,8 @@
 #include "fur/groom.h"
 #include "fur/image_io.h"
 #include "gltf_internal.h"
+#include "surface_painter.h"
+#include "unwrap.h"
 
 namespace fur::gltf {
 namespace {
@@ -291,6 +293,7 @@ class Resolver {
 
   // The markings instead of the materials' own pictures, in their texture coordinates.
   void Paint(const Markings& markings) {
+    Unwrap(markings.size);
     const Body body(model_);
     for (uint32_t i = 0; i < model_.materials.size(); ++i) {
       Material& material = model_.materials[i];
@@ -299,6 +302,16 @@ class Resolver {
       material.baseColorTexture = {.image = int32_t(model_.images.size() - 1)};
       material.baseColor = glm::vec4(1);
     }
+  }
+
+  // Where one texel shows two places, new texture coordinates.
+  void Unwrap(uint32_t side) {
+    constexpr double kMostOverlap = 0.002;  // a texel here and there on a seam
+    const Body body(model_);
+    std::vector<uint32_t> overlapping;
+    for (uint32_t i = 0; i < model_.materials.size(); ++i)
+      if (model_.materials[i].fur && OverlapShare(model_, body, i) > kMostOverlap) overlapping.push_back(i);
+    for (const uint32_t i : overlapping) UnwrapMaterial(&model_, i, side);
   }
 
   FurVolume LoadLayers(const std::vector<std::string>& layers) {
