@@ -10,22 +10,17 @@ namespace {
 
 using glm::dvec3;
 
-// As far as the wave that reached a at ta and b at tb (ta <= tb) has come at c.
+// As far as the wave that reached a at ta and b at tb has come at c: from the one point in the triangle's plane that is ta
+// and tb away, if the straight line from there crosses the edge; else along an edge.
 double Update(const dvec3& c, const dvec3& a, double ta, const dvec3& b, double tb) {
-  const double ca = glm::length(a - c), cb = glm::length(b - c), u = tb - ta;
-  const double along = std::min(ta + ca, tb + cb);
-  if (!(ca > 0) || !(cb > 0)) return along;
-  const double cosine = glm::dot(a - c, b - c) / (ca * cb);
-  if (cosine <= 0) return along;  // seen over an obtuse corner
-  const double p = ca * ca + cb * cb - 2 * ca * cb * cosine, q = 2 * ca * u * (cb * cosine - ca);
-  const double r = ca * ca * (u * u - cb * cb * (1 - cosine * cosine));
-  const double root = q * q - 4 * p * r;
-  if (!(p > 0) || root < 0) return along;
-  const double t = (-q + std::sqrt(root)) / (2 * p);
-  if (!(t > u)) return along;
-  const double way = ca * (t - u) / t;
-  if (!(way > cb * cosine) || !(way < cb / cosine)) return along;
-  return std::min(along, t + ta);
+  const double edge = glm::length(b - a), along = std::min(ta + glm::length(a - c), tb + glm::length(b - c));
+  if (!(edge > 0)) return along;
+  const double x = (edge * edge + ta * ta - tb * tb) / (2 * edge), depth = ta * ta - x * x;
+  const double cx = glm::dot(c - a, b - a) / edge, height = glm::dot(c - a, c - a) - cx * cx;
+  if (!(depth > 0) || !(height > 0)) return along;
+  const double y = std::sqrt(depth), cy = std::sqrt(height), crossing = x + (cx - x) * y / (y + cy);
+  if (crossing < 0 || crossing > edge) return along;
+  return std::min(along, std::sqrt((cx - x) * (cx - x) + (cy + y) * (cy + y)));
 }
 
 struct Neighbours {
@@ -76,12 +71,11 @@ std::vector<double> SurfaceDistance(const Skin& skin, const std::vector<Source>&
     for (const uint32_t index : neighbours.triangles[v]) {
       const auto& t = skin.triangles[index];
       for (int k = 0; k < 3; ++k) {
-        uint32_t a = t[(k + 1) % 3], b = t[(k + 2) % 3];
-        if (distance[b] < distance[a]) std::swap(a, b);
-        if (distance[a] == HUGE_VAL || t[k] == v) continue;
-        const dvec3& c = skin.positions[t[k]];
-        reach(t[k], distance[b] == HUGE_VAL ? distance[a] + glm::length(skin.positions[a] - c)
-                                            : Update(c, skin.positions[a], distance[a], skin.positions[b], distance[b]));
+        const uint32_t c = t[k], b = t[(k + 1) % 3] == v ? t[(k + 2) % 3] : t[(k + 1) % 3];
+        if (c == v) continue;
+        const dvec3 &at = skin.positions[v], &to = skin.positions[c];
+        reach(c, distance[b] == HUGE_VAL ? d + glm::length(at - to)
+                                         : Update(to, at, d, skin.positions[b], distance[b]));
       }
     }
   }

@@ -24,9 +24,9 @@ struct Skin {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
-// From the nearest of the sources, whose own distances are given. Over the skin, by the update of Kimmel, Sethian,
-// "Computing geodesic paths on manifolds", PNAS 95 (1998), repeated until nothing changes; what no source reaches has the
-// straight distance.
+// From the nearest of the sources, whose own distances are given. Over the skin, triangle by triangle as if from one point
+// in its plane (Novotni, Klein, "Computing geodesic distances on triangular meshes", WSCG 2002), repeated until nothing
+// changes; what no source reaches has the straight distance.
 struct Source {
   uint32_t vertex;
   double distance;

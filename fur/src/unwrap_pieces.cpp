@@ -71,8 +71,7 @@ class Cutter {
     while (!open.empty()) {
       const uint32_t t = open.front();
       open.pop_front();
-      const auto corner = [&](size_t k) { return uv_[indices_[size_t{t} * 3 + k]]; };
-      if (!claims.Take({corner(0), corner(1), corner(2)})) continue;
+      if (IsMirrored(t) != IsMirrored(first) || !claims.Take(Corners(t))) continue;
       pieces_[t] = piece;
       for (size_t k = 0; k < 3; ++k)
         for (const uint32_t next : at_[indices_[size_t{t} * 3 + k]]) {
@@ -83,6 +82,15 @@ class Cutter {
     }
   }
 
+  std::array<dvec2, 3> Corners(uint32_t t) const {
+    const uint32_t* v = &indices_[size_t{t} * 3];
+    return {uv_[v[0]], uv_[v[1]], uv_[v[2]]};
+  }
+  // A triangle that folds over lies on its neighbours.
+  bool IsMirrored(uint32_t t) const {
+    const std::array<dvec2, 3> c = Corners(t);
+    return (c[1].x - c[0].x) * (c[2].y - c[0].y) < (c[1].y - c[0].y) * (c[2].x - c[0].x);
+  }
   uint32_t ChartOf(uint32_t t) const { return chartOf_[indices_[size_t{t} * 3]]; }
 
   std::span<const uint32_t> indices_;
