@@ -121,13 +121,18 @@ double PatternField::Ramps(const std::vector<BodyRamp>& ramps, const Place& at) 
 double PatternField::Value(const Place& at) const {
   switch (layer_.pattern) {
     case Pattern::Stripes: return Stripes(at);
-    case Pattern::Rosettes: return -std::abs(Ring(at) - layer_.ring) + 0.5 * layer_.irregular * Turbulence(at.p / (0.3 * layer_.scale));
-    case Pattern::Spots: return -Ring(at) + 0.4 * layer_.irregular * Turbulence(at.p / (0.4 * layer_.scale));
+    case Pattern::Rosettes: return Broken(-std::abs(Ring(at) - layer_.ring), 0.5, at);
+    case Pattern::Spots: return Broken(-Ring(at), 0.4, at);
     case Pattern::Patches: return Turbulence(at.p / layer_.scale + Shift(layer_.seed));
     case Pattern::Streaks: return Streaks(at);
     case Pattern::Solid: break;
   }
   return 0;
+}
+
+double PatternField::Broken(double value, double strength, const Place& at) const {
+  constexpr double kGrain = 0.35;  // scales
+  return value + strength * layer_.irregular * Turbulence(at.p / (kGrain * layer_.scale));
 }
 
 // 0 at a site, 1 half way to the next: rings in it never cross from one site to another (Worley, "A Cellular Texture Basis

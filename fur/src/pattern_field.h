@@ -45,6 +45,7 @@ class PatternField {
   double Stripes(const Place&) const;
   double Streaks(const Place&) const;
   double Ring(const Place&) const;
+  double Broken(double value, double strength, const Place&) const;
   double Ramps(const std::vector<BodyRamp>&, const Place&) const;
 
   MarkingLayer layer_;
