@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "fur/bake_files.h"
+#include "fur/coat_file.h"
 
 namespace app {
 namespace {
@@ -19,7 +20,7 @@ using fur::ErrorCode;
 using fur::Result;
 
 struct BakeFlags {
-  std::string output, coatFile, strands;
+  std::string output, coat, strands;
   uint32_t threads = 0;
   bool progress = false, noMips = false;
   std::map<const fur::CoatKey*, std::string> values;  // as given
@@ -41,8 +42,11 @@ Result<double> ParseNumber(const std::string& text, const std::string& flag) {
 
 Result<fur::CoatParams> MakeParams(const BakeFlags& f) {
   fur::CoatParams params;
-  if (!f.coatFile.empty())
-    if (Result<Done> read = fur::ReadCoatFile(f.coatFile, &params); !read) return read.error();
+  if (!f.coat.empty()) {
+    Result<fur::Coat> coat = fur::LoadCoat(f.coat);
+    if (!coat) return coat.error();
+    params = coat->strands;
+  }
   for (const auto& [key, text] : f.values) {
     const std::string flag = FlagName(*key);
     Result<double> value = ParseNumber(text, flag);
@@ -124,7 +128,7 @@ void AddBakeCommand(CLI::App& app, Command* run) {
   auto flags = std::make_shared<BakeFlags>();
   CLI::App* c = app.add_subcommand("bake", "Grow a coat of strands and write it as the layers of a fur volume");
   c->add_option("-o,--output", flags->output, "Folder to write; appears whole or not at all")->required();
-  c->add_option("--coat", flags->coatFile, "JSON file of parameters, as coat.json in a baked folder; flags win");
+  c->add_option("--coat", flags->coat, "Strands of a coat: a name (fur info --coats) or a JSON file (docs/coats.md), as coat.json in a baked folder; flags win");
   c->add_option("--strands", flags->strands, "Also write the strands, as polylines, to this .json or .ply");
   c->add_option("--threads", flags->threads, "Threads, 0..256; 0: one for each core. The bytes do not depend on it")
       ->check(CLI::Range(0u, 256u))

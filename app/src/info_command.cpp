@@ -2,6 +2,7 @@
 
 #include "backends.h"
 #include "commands.h"
+#include "fur/coat_file.h"
 #include "fur/params.h"
 
 namespace app {
@@ -58,13 +59,24 @@ int PrintSchema() {
   return 0;
 }
 
+int PrintCoats() {
+  for (const fur::EmbeddedCoat& embedded : fur::EmbeddedCoats()) {
+    const fur::Result<fur::Coat> coat = fur::LoadCoat(embedded.name);
+    if (!coat) return Fail(coat.error());
+    fmt::print("{:<14}{}\n", embedded.name, coat->title);
+  }
+  return 0;
+}
+
 }  // namespace
 
 void AddInfoCommand(CLI::App& app, Command* run) {
   CLI::App* info = app.add_subcommand("info", "List adapters, drivers and what they can do");
   auto schema = std::make_shared<bool>(false);
   info->add_flag("--groom-schema", *schema, "Print the JSON schema of fur files (render --groom) instead");
-  info->callback([run, schema] { *run = *schema ? PrintSchema : PrintInfo; });
+  auto coats = std::make_shared<bool>(false);
+  info->add_flag("--coats", *coats, "List the coats of render --coat and bake --coat instead");
+  info->callback([run, schema, coats] { *run = *schema ? PrintSchema : *coats ? PrintCoats : PrintInfo; });
 }
 
 }  // namespace app

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace app {
 namespace {
 
@@ -36,6 +38,20 @@ const char* const kGroom[] = {"--density",        "--thickness",   "--gravity", 
                               "--wind",           "--wind-strength", "--wind-frequency", "--wind-length",
                               "--inertia-stiffness", "--inertia-damping", "--time"};
 
+// The preset's own four, not those of docs/coats.md.
+fur::Result<fur::Done> SetFourCoat(const std::string& coat, fur::RenderSettings* s) {
+  const std::initializer_list<std::pair<const char*, fur::FourCoat>> coats = {{"bear", fur::FourCoat::Bear},
+                                                                              {"panther", fur::FourCoat::Panther},
+                                                                              {"snow", fur::FourCoat::Snow},
+                                                                              {"tiger", fur::FourCoat::Tiger}};
+  const bool known = std::any_of(coats.begin(), coats.end(), [&](const auto& c) { return coat == c.first; });
+  if (!coat.empty() && !known)
+    return Error{ErrorCode::Usage,
+                 fmt::format("--preset four-coats has the coats bear, panther, snow, tiger, not '{}'", coat)};
+  s->fourCoat = Choose<fur::FourCoat>(coat, coats);
+  return fur::Done{};
+}
+
 }  // namespace
 
 fur::Result<fur::Done> SetPreset(const std::string& preset, const std::string& coat, const std::set<std::string>& given,
@@ -46,18 +62,13 @@ fur::Result<fur::Done> SetPreset(const std::string& preset, const std::string& c
       return Error{ErrorCode::Usage, fmt::format("{} does nothing in {}", flag,
                                                  preset.empty() ? "--technique seed" : "--preset " + preset)};
   if (preset.empty()) {
-    for (const char* flag : {"--coat", "--dead-zone"})
-      if (has(flag)) return Error{ErrorCode::Usage, fmt::format("{} belongs to a --preset that has it", flag)};
+    if (has("--dead-zone")) return Error{ErrorCode::Usage, "--dead-zone belongs to a --preset that has it"};
     return fur::Done{};
   }
   s->preset = Choose<Preset>(preset, {{"demo-fur", Preset::DemoFur},
                                       {"nvidia-d3d10", Preset::NvidiaD3d10},
                                       {"gs-shells", Preset::GsShells},
                                       {"four-coats", Preset::FourCoats}});
-  s->fourCoat = Choose<fur::FourCoat>(coat, {{"bear", fur::FourCoat::Bear},
-                                             {"panther", fur::FourCoat::Panther},
-                                             {"snow", fur::FourCoat::Snow},
-                                             {"tiger", fur::FourCoat::Tiger}});
   const bool demo = s->preset == Preset::DemoFur;
   if (has("--technique") && s->technique != fur::Technique::Seed)
     return Error{ErrorCode::Usage,
@@ -71,6 +82,7 @@ fur::Result<fur::Done> SetPreset(const std::string& preset, const std::string& c
   for (const Owned& o : kOwned)
     if (has(o.flag) && !o.owners.contains(s->preset))
       return Error{ErrorCode::Usage, fmt::format("{} does nothing in --preset {}", o.flag, preset)};
+  if (fur::Result<fur::Done> known = SetFourCoat(coat, s); !known) return known;
   s->technique = fur::Technique::Seed;
   if (!has("--look")) s->look = fur::Look::Seed;
   return fur::Done{};

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "commands.h"
 #include "flag_checks.h"
 #include "fur/builtin.h"
+#include "fur/coat_file.h"
 #include "fur/file.h"
 #include "fur/gltf.h"
 #include "fur/image_io.h"
@@ -105,7 +107,14 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
 Result<fur::Model> LoadModel(const RenderFlags& f) {
   Result<std::string> overrides = GroomOverrides(f.fur);
   if (!overrides) return overrides.error();
-  const fur::LoadOptions options{.furFile = f.furFile, .furOverrides = *overrides, .furMaterial = f.furMaterial};
+  std::optional<fur::Coat> coat;
+  if (!f.coat.empty() && f.preset.empty()) {
+    Result<fur::Coat> loaded = fur::LoadCoat(f.coat);
+    if (!loaded) return loaded.error();
+    coat = std::move(*loaded);
+  }
+  const fur::LoadOptions options{.coat = coat ? &*coat : nullptr, .furFile = f.furFile, .furOverrides = *overrides,
+                                 .furMaterial = f.furMaterial};
   if (!f.model.empty()) return fur::LoadGltf(f.model, options);
   fur::Model model = fur::MakeBuiltinAnimal();
   if (Result<Done> groomed = fur::GroomModel(options, &model); !groomed) return groomed.error();
@@ -256,7 +265,6 @@ Result<Done> Render(const RenderFlags& f) {
 void AddPresetFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--preset", f->preset, "A published system's shells and fins, and its look (docs/presets.md); technique seed, look seed")
       ->check(CLI::IsMember({"demo-fur", "nvidia-d3d10", "gs-shells", "four-coats"}));
-  c->add_option("--coat", f->coat, "Whose colours preset four-coats wears; default bear")->check(CLI::IsMember({"bear", "panther", "snow", "tiger"}));
   c->add_option("--dead-zone", f->deadZone, "Presets gs-shells, four-coats: an edge whose mean normal is this near to perpendicular to the view grows a fin, 0..1")
       ->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
 }
@@ -300,6 +308,7 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--repeat", f->repeat, "Timed frames after the first")->check(CLI::Range(0u, 100000u))->capture_default_str();
   c->add_option("--stats", f->stats, "JSON file for times and counts");
   c->add_option("--groom,--fur", f->furFile, "JSON file of fur parameters (docs/fur.md, docs/groom.schema.json)");
+  c->add_option("--coat", f->coat, "A whole coat: a name (fur info --coats) or a JSON file (docs/coats.md). With --preset four-coats whose colours it wears: bear, panther, snow, tiger; default bear");
   c->add_option("--fur-material", f->furMaterial, "Grow fur on the material of this name only");
   c->add_option("--time", f->time, "Seconds that the wind has blown")->check(kFinite)->check(CLI::Range(0.0, 1e9));
   AddGroomFlags(c, &f->fur);

@@ -7,7 +7,6 @@
 #include <optional>
 #include <system_error>
 
-#include "file_bytes.h"
 #include "for_all.h"
 #include "fur/file.h"
 #include "fur/image_io.h"
@@ -161,14 +160,6 @@ bool IsInside(const CoatOutput& output) {
 }
 
 }  // namespace
-
-Result<Done> ReadCoatFile(const fs::path& file, CoatParams* params) {
-  Result<std::vector<uint8_t>> bytes = ReadFileBytes(file, uint64_t{1} << 20);
-  if (!bytes) return bytes.error();
-  const nlohmann::json json = nlohmann::json::parse(bytes->begin(), bytes->end(), nullptr, false);
-  if (json.is_discarded()) return Error{ErrorCode::InputMalformed, file.string() + ": is not valid JSON"};
-  return ApplyCoatJson(json, file.string(), params);
-}
 
 BakedCoat Bake(const CoatParams& params, uint32_t threads, const BakeProgress& progress) {
   BakedCoat coat{params, GrowStrandList(params), {}, {}};

@@ -177,8 +177,9 @@ Result<Done> ApplyCoatJson(const Json& object, const std::string& where, CoatPar
 
 std::string CoatJson(const CoatParams& params) {
   nlohmann::ordered_json json;
+  nlohmann::ordered_json& strands = json["strands"];
   for (const CoatKey& key : CoatKeys()) {
-    nlohmann::ordered_json& object = *key.group == '\0' ? json : json[key.group];
+    nlohmann::ordered_json& object = *key.group == '\0' ? strands : strands[key.group];
     if (key.whole)
       object[key.name] = static_cast<uint64_t>(CoatValue(params, key));
     else

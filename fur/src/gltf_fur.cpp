@@ -3,12 +3,15 @@
 #include <cctype>
 #include <cmath>
 
+#include "body.h"
 #include "file_bytes.h"
 #include "fur/bake.h"
 #include "fur/coat.h"
 #include "fur/groom.h"
 #include "fur/image_io.h"
 #include "gltf_internal.h"
+#include "surface_painter.h"
+#include "unwrap.h"
 
 namespace fur::gltf {
 namespace {
@@ -91,6 +94,7 @@ class Resolver {
       const FurParams params = Params(i, furred[i]);
       model_.materials[i].fur = furred[i] && params.enabled ? std::optional(Grow(i, params)) : std::nullopt;
     }
+    if (options_.coat != nullptr && options_.coat->markings) Paint(*options_.coat->markings);
   }
 
  private:
@@ -144,13 +148,17 @@ class Resolver {
     return chosen;
   }
 
+  // What the asset says; the coat of the command line comes next.
+  std::vector<Source> AssetSources(uint32_t material) const {
+    const Json* extras = Extras(material);
+    if (extras == nullptr) return {};
+    return {{*extras, Text(doc_.file.string(), ": materials[", material, "].extras.fur"), doc_.file.parent_path(), true}};
+  }
+
   // Later sources win.
-  std::vector<Source> Sources(uint32_t material, bool furred) const {
+  std::vector<Source> UserSources(uint32_t material, bool furred) const {
     std::vector<Source> sources;
     const std::string& name = model_.materials[material].name;
-    if (const Json* extras = Extras(material))
-      sources.push_back(
-          {*extras, Text(doc_.file.string(), ": materials[", material, "].extras.fur"), doc_.file.parent_path(), true});
     if (file_.fallback) sources.push_back(*file_.fallback);
     if (file_.materials.contains(name) && file_.materials[name].is_object())
       sources.push_back({file_.materials[name], Text(options_.furFile.string(), ": materials.", name), file_.folder});
@@ -171,12 +179,18 @@ class Resolver {
   FurParams Params(uint32_t material, bool furred) const {
     const std::optional<MaterialFur>& coat = model_.materials[material].fur;
     FurParams params = coat ? coat->params : FurParams{};
-    for (const Source& source : Sources(material, furred)) {
-      if (Result<Done> ok = ApplyFurJson(source.object, source.where, source.extras, &params); !ok)
-        Fail({source.code, ok.error().message});
-      ResolvePaths(source, &params);
-    }
+    Apply(AssetSources(material), &params);
+    if (options_.coat != nullptr && furred) params = Wear(*options_.coat, params, diameter_ / UnitScale(material));
+    Apply(UserSources(material, furred), &params);
     return params;
+  }
+
+  void Apply(const std::vector<Source>& sources, FurParams* params) const {
+    for (const Source& source : sources) {
+      if (Result<Done> ok = ApplyFurJson(source.object, source.where, source.extras, params); !ok)
+        Fail({source.code, ok.error().message});
+      ResolvePaths(source, params);
+    }
   }
 
   // Makes the names that this source has set independent of where it stands.
@@ -200,14 +214,16 @@ class Resolver {
   MaterialFur Grow(uint32_t material, const FurParams& params) {
     MaterialFur fur = model_.materials[material].fur.value_or(MaterialFur{});
     fur.params = params;
-    if (fur.volume < 0 || !params.layers.empty()) fur.volume = Volume(params.layers);
+    const bool wearsCoat = options_.coat != nullptr && params.layers.empty();
+    if (fur.volume < 0 || wearsCoat || !params.layers.empty()) fur.volume = Volume(params.layers);
     if (!params.lengthMap.empty()) fur.lengthMap = ImageFile(params.lengthMap);
     if (!params.directionMap.empty()) fur.directionMap = ImageFile(params.directionMap);
     if (!params.furlessMap.empty()) fur.lengthMap = Furless(fur.lengthMap, ImageFile(params.furlessMap));
     const double unit = UnitScale(material);
     constexpr double kLengthOfDiameter = 0.025;  // a short coat on an animal
     if (fur.params.length == 0) fur.params.length = kLengthOfDiameter * diameter_ / unit;
-    if (fur.params.layerUvScale == 0) fur.params.layerUvScale = TilesAcross(material, fur.params.length * unit);
+    const double tile = wearsCoat ? options_.coat->strands.tile : kTileOverLength;
+    if (fur.params.layerUvScale == 0) fur.params.layerUvScale = TilesAcross(material, tile * fur.params.length * unit);
     return fur;
   }
 
@@ -221,13 +237,13 @@ class Resolver {
   // Strands look natural when a tile, which holds some forty of them across, covers about as much skin as the fur is
   // long: then a strand is a few hundredths of its length thick. The mean size of the UV square on the skin follows
   // from the areas. A whole number keeps the tiling seamless where u or v wraps from 1 to 0.
-  double TilesAcross(uint32_t material, double length) const {
+  double TilesAcross(uint32_t material, double tile) const {
     constexpr double kMostTiles = 4096;
     double skin = 0, uv = 0;
     for (const Part& part : model_.parts)
       if (model_.primitives[part.primitive].material == material) AddAreas(part, &skin, &uv);
-    if (!(skin > 0) || !(uv > 0) || !(length > 0)) return 1;
-    return std::clamp(std::round(std::sqrt(skin / uv) / (kTileOverLength * length)), 1.0, kMostTiles);
+    if (!(skin > 0) || !(uv > 0) || !(tile > 0)) return 1;
+    return std::clamp(std::round(std::sqrt(skin / uv) / tile), 1.0, kMostTiles);
   }
 
   void AddAreas(const Part& part, double* skin, double* uv) const {
@@ -264,8 +280,38 @@ class Resolver {
 
   int32_t Volume(const std::vector<std::string>& layers) {
     const auto [it, isNew] = volumes_.try_emplace(layers, static_cast<int32_t>(model_.volumes.size()));
-    if (isNew) model_.volumes.push_back(layers.empty() ? GrowCoat(1) : LoadLayers(layers));
+    if (isNew) model_.volumes.push_back(layers.empty() ? GrownVolume() : LoadLayers(layers));
     return it->second;
+  }
+
+  FurVolume GrownVolume() const {
+    if (options_.coat == nullptr) return GrowCoat(1);
+    const CoatParams& strands = options_.coat->strands;
+    if (Result<Done> ok = CheckCoat(strands); !ok) Fail({ok.error().code, options_.coat->name + ": " + ok.error().message});
+    return BakeVolume(strands, GrowStrandList(strands));
+  }
+
+  // The markings instead of the materials' own pictures, in their texture coordinates.
+  void Paint(const Markings& markings) {
+    Unwrap(markings.size);
+    const Body body(model_);
+    for (uint32_t i = 0; i < model_.materials.size(); ++i) {
+      Material& material = model_.materials[i];
+      if (!material.fur) continue;
+      model_.images.push_back(PaintMarkings(model_, body, i, markings));
+      material.baseColorTexture = {.image = int32_t(model_.images.size() - 1)};
+      material.baseColor = glm::vec4(1);
+    }
+  }
+
+  // Where one texel shows two places, new texture coordinates.
+  void Unwrap(uint32_t side) {
+    constexpr double kMostOverlap = 0.002;  // a texel here and there on a seam
+    const Body body(model_);
+    std::vector<uint32_t> overlapping;
+    for (uint32_t i = 0; i < model_.materials.size(); ++i)
+      if (model_.materials[i].fur && OverlapShare(model_, body, i) > kMostOverlap) overlapping.push_back(i);
+    for (const uint32_t i : overlapping) UnwrapMaterial(&model_, i, side);
   }
 
   FurVolume LoadLayers(const std::vector<std::string>& layers) {

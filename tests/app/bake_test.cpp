@@ -36,7 +36,7 @@ TEST(BakeCommand, CoatFileAndFlags) {
   const Folder folder;
   ExpectSuccess(
       RunFur(Small(folder / "a", {"--over-length", "0.5", "--under-curl-turns=3", "--over-bias-y", "-0.25"})));
-  const nlohmann::json coat = ReadJson(folder / "a" + "/coat.json");
+  const nlohmann::json coat = ReadJson(folder / "a" + "/coat.json")["strands"];
   EXPECT_EQ(coat["size"], 32);
   EXPECT_EQ(coat["over"]["length"], 0.5);
   EXPECT_EQ(coat["under"]["curl_turns"], 3.0);
@@ -44,7 +44,7 @@ TEST(BakeCommand, CoatFileAndFlags) {
   ExpectSuccess(RunFur({"bake", "-o", folder / "b", "--coat", folder / "a" + "/coat.json"}));
   EXPECT_EQ(Bytes(folder / "b" + "/01.png"), Bytes(folder / "a" + "/01.png"));
   ExpectSuccess(RunFur({"bake", "-o", folder / "b", "--coat", folder / "a" + "/coat.json", "--over-length", "0.9"}));
-  EXPECT_EQ(ReadJson(folder / "b" + "/coat.json")["over"]["length"], 0.9);
+  EXPECT_EQ(ReadJson(folder / "b" + "/coat.json")["strands"]["over"]["length"], 0.9);
 }
 
 TEST(BakeCommand, RenderWearsIt) {
@@ -90,8 +90,8 @@ TEST(BakeCommand, ErrorsNameTheFlag) {
 
 TEST(BakeCommand, BadCoatFilesAreRefusedByName) {
   const Folder folder;
-  for (const auto& [text, word] : {std::pair{R"({"over": {"lenght": 1}})", "over.lenght"},
-                                   {R"({"over": {"length": 9}})", "over.length"},
+  for (const auto& [text, word] : {std::pair{R"({"strands": {"over": {"lenght": 1}}})", "over.lenght"},
+                                   {R"({"strands": {"over": {"length": 9}}})", "over.length"},
                                    {R"({"size": )", "JSON"}}) {
     const std::string file = folder.Write("coat.json", text);
     ExpectFailure(RunFur(Small(folder / "out", {"--coat", file})), kInputMalformed, {"coat.json", word});

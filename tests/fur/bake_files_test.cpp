@@ -1,5 +1,6 @@
 // Baked coats on disk: whole or not at all, and the loader reads them.
 #include "fur/bake_files.h"
+#include "fur/coat_file.h"
 
 #include <gtest/gtest.h>
 
@@ -86,9 +87,9 @@ TEST_F(BakeFiles, FolderHoldsWhatItShould) {
       expected.insert({std::string("coat/mips/") + level, std::string("coat/mips/") + level + "/" + slice});
   }
   EXPECT_EQ(Content(), expected);
-  CoatParams params;
-  ASSERT_TRUE(ReadCoatFile(folder_ / "coat/coat.json", &params));
-  EXPECT_EQ(Bake(params).volume.pixels, coat_.volume.pixels);
+  const Result<Coat> coat = LoadCoat((folder_ / "coat/coat.json").string());
+  ASSERT_TRUE(coat);
+  EXPECT_EQ(Bake(coat->strands).volume.pixels, coat_.volume.pixels);
 }
 
 TEST_F(BakeFiles, AnOldCoatIsReplacedWhole) {

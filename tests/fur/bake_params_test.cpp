@@ -79,7 +79,7 @@ TEST(CoatJson, UnknownKeysAreRefusedByNameAndNothingIsApplied) {
 TEST(CoatJson, ReadsWhatItWrites) {
   CoatParams params, again;
   params.seed = 4294967295u, params.over.length = 1.0 / 3, params.under.biasX = -0.1;
-  ASSERT_TRUE(ApplyCoatJson(Json::parse(CoatJson(params)), "", &again));
+  ASSERT_TRUE(ApplyCoatJson(Json::parse(CoatJson(params))["strands"], "", &again));
   for (const CoatKey& key : CoatKeys()) EXPECT_EQ(CoatValue(again, key), CoatValue(params, key)) << PathOf(key);
 }
 

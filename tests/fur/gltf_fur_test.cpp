@@ -76,7 +76,7 @@ TEST_F(GltfFur, LaterSourcesWin) {
   EXPECT_EQ(params.specularPower, 4);
 }
 
-// Every pair of the five sources, each with a wetness of its own; and each alone against the default.
+// Every pair of the six sources, each with a wetness of its own; and each alone against the default.
 TEST_F(GltfFur, OfTwoSourcesTheLaterOneWins) {
   const auto drawn = [&](uint32_t sources) {
     const auto wet = [](int source) { return nlohmann::json{{"wetness", 0.1 * source}}; };
@@ -84,14 +84,18 @@ TEST_F(GltfFur, OfTwoSourcesTheLaterOneWins) {
     b.json["materials"][0].erase("extras");
     if (has(2)) Extras(0) = wet(2);
     nlohmann::json file = nlohmann::json::object();
-    if (has(3)) file["default"] = wet(3);
-    if (has(4)) file["materials"]["Body"] = wet(4);
+    Coat coat;
+    coat.strands.size = 8, coat.strands.layers = 2;  // what it grows does not matter here
+    coat.groom.wetness = 0.1 * 3;
+    if (has(4)) file["default"] = wet(4);
+    if (has(5)) file["materials"]["Body"] = wet(5);
     LoadOptions options = File(file.dump());
-    if (has(5)) options.furOverrides = wet(5).dump();
+    if (has(3)) options.coat = &coat;
+    if (has(6)) options.furOverrides = wet(6).dump();
     return Params(options).wetness;
   };
   EXPECT_EQ(drawn(0), 0);
-  for (int later = 2; later <= 5; ++later)
+  for (int later = 2; later <= 6; ++later)
     for (int earlier = 1; earlier < later; ++earlier)
       EXPECT_EQ(drawn(1u << later | 1u << earlier), 0.1 * later) << earlier << " and " << later;
 }

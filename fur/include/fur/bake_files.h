@@ -13,10 +13,10 @@
 namespace fur {
 
 // {"size": 128, ..., "under": {"density": ...}, "over": {...}} over `params`. Unknown keys and values out of range are
-// refused by name; `where` starts the message.
+// refused by name; `where` starts the message. A coat file has this object as "strands".
 Result<Done> ApplyCoatJson(const nlohmann::json& object, const std::string& where, CoatParams* params);
-Result<Done> ReadCoatFile(const std::filesystem::path& file, CoatParams* params);
-std::string CoatJson(const CoatParams& params);  // every parameter; ApplyCoatJson reads it
+// Every parameter as a coat file (fur/coat_file.h): {"strands": {...}}.
+std::string CoatJson(const CoatParams& params);
 
 struct BakedCoat {
   CoatParams params;

@@ -6,12 +6,16 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "fur/coat_file.h"
 #include "fur/model.h"
 #include "fur/result.h"
 
 namespace fur {
 
 struct LoadOptions {
+  // Worn by every furred material: grows its strands, takes the place of the material's own parameters (Wear), and paints
+  // its markings. What follows acts on it. Null: none. Must live until the model is loaded.
+  const Coat* coat = nullptr;
   std::filesystem::path furFile;  // JSON with {"default": {...}, "materials": {"NAME": {...} | false}}; empty: none
   // Flags, as one more JSON object of FurParams keys applied to every furred material; empty text: none.
   std::string furOverrides;

@@ -1,5 +1,5 @@
 // The parameters of a coat, and where they come from. Order of precedence, later wins: the defaults below, the coat's
-// own, the material's glTF `extras.fur`, a JSON file (`--groom FILE`), flags (docs/fur.md).
+// own, the material's glTF `extras.fur`, a whole coat (`--coat`), a JSON file (`--groom FILE`), flags (docs/fur.md).
 #pragma once
 
 #include <cstdint>
