@@ -2,6 +2,9 @@
 // An edge that grows none collapses to a point.
 #include "fin_edge.hlsli"
 #include "fin_list.hlsli"
+#ifdef FIN_IN_VOLUME
+#include "fin_volume.hlsli"
+#endif
 
 #ifdef COMPACTED
 StructuredBuffer<uint> keptEdges : register(t7);
@@ -13,7 +16,12 @@ FurVarying VSMain(uint vertex : SV_VertexID) {
   edge = keptEdges[uint(draw.y) + edge];
 #endif
   uint4 ends = finEdges[edge];
-  FurVertex v1 = LoadFurVertex(ends.y), v2 = LoadFurVertex(ends.z);
-  float opacity = FinOpacity(LoadFurVertex(ends.x), v1, v2, LoadFurVertex(ends.w));
-  return FinCorner(v1, v2, opacity > 0.0 ? vertex % 6u : 0u, opacity);
+  FurVertex v0 = LoadFurVertex(ends.x), v1 = LoadFurVertex(ends.y), v2 = LoadFurVertex(ends.z), v3 = LoadFurVertex(ends.w);
+  float opacity = FinOpacity(v0, v1, v2, v3);
+  uint corner = opacity > 0.0 ? vertex % 6u : 0u;
+#ifdef FIN_IN_VOLUME
+  return FinInVolume(v0, v1, v2, v3, corner);
+#else
+  return FinCorner(v1, v2, corner, opacity);
+#endif
 }

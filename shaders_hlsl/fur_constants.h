@@ -30,7 +30,8 @@ FUR_CBUFFER(MaterialConstants, b1) {
   FUR_FLOAT4 surface;       // x: normal scale, y: 1 with a normal map
   FUR_FLOAT4 furShape;      // x: length (object units), y: layer uv scale, z: slices N0, w: shells N
   FUR_FLOAT4 furLight;      // x: light left at the root, y: specular power, z: specular scale, w: coverage lost at the tip
-  FUR_FLOAT4 furSemantics;  // x: least cosine of the volume law, y: exponent N0 / N of the opacity law, z: length/N
+  FUR_FLOAT4 furSemantics;  // x: least cosine of the volume law, y: exponent N0 / N of the opacity law, z: length/N,
+                            // w: strength of the strands' own colours
   FUR_FLOAT4 fin;           // x: threshold of |e.N| below which an edge grows a fin, y: opacity of a whole fin,
                             // z: dead zone of |e.(mean vertex normal)| in which an edge grows one (presets)
   FUR_FLOAT4 groom;         // x: density, y: clumping, z: how much of the base texture, w: exponent of wet colour

@@ -68,9 +68,10 @@ Clump FindClump(float2 tiles, float height) {
   return c;
 }
 
-// Of the base texture, white where it does not count, times the gradient; wet fur is darker.
-float3 GroomedAlbedo(float3 base, float height) {
-  float3 albedo = (base * groom.z + (1.0 - groom.z)) * (rootColor.rgb + (tipColor.rgb - rootColor.rgb) * height);
+// Of the base texture, white where it does not count, times the gradient and the strands' own; wet fur is darker.
+float3 GroomedAlbedo(float3 base, float height, float3 own) {
+  float3 gradient = rootColor.rgb + (tipColor.rgb - rootColor.rgb) * height;
+  float3 albedo = ((base * groom.z + (1.0 - groom.z)) * gradient) * own;
   return pow(clamp(albedo, 1e-6, 1.0), groom.w);
 }
 

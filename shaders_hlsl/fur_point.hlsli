@@ -16,23 +16,34 @@ struct FurVertex {  // fur::FurVertex
 struct FurVarying {
   float4 position : SV_Position;
   float4 uv : TEXCOORD0;         // xy: the model's maps, zw: tiles of the volume
-  float3 fur : TEXCOORD1;        // x: height, y: relative length, z: opacity of the fin
+  float3 fur : TEXCOORD1;        // x: height, y: relative length, z: opacity of the fin, or where it is along its edge
   float3 normal : TEXCOORD2;     // world axes, from here on
   float3 direction : TEXCOORD3;  // of the strand's axis at this height
   float4 tangent : TEXCOORD4;
   float3 fromEye : TEXCOORD5;
+#ifdef FIN_IN_VOLUME
+  float4 before : TEXCOORD6;     // fin_volume.hlsli
+  float4 behind : TEXCOORD7;
+#endif
 };
 // Scalars of a FurVarying: 4 + 4 + 3 + 3 + 3 + 4 + 3. A geometry shader may emit 1,024 (Direct3D 10, Vulkan's and GL's
 // floor), so at most 42 vertices, 14 shells of a triangle.
 #define FUR_VARYING_SCALARS 24
 #define FUR_SHELLS_IN_GS 14
 
-FurVarying PointAt(FurVertex v, float height, float opacity) {
+float3 PlaceAt(FurVertex v, float3 tip, float height) {
   float furLength = v.position.w * furShape.x;
   // Not 0: pow(0, 0) is not 1 everywhere.
   float h = max(height, 1e-6);
+  return v.position.xyz + (v.direction.xyz * (height * furLength) + tip * (pow(h, comb.w) * furLength));
+}
+
+float3 PlaceAt(FurVertex v, float height) { return PlaceAt(v, TipOffset(v.position.xyz, v.direction.xyz), height); }
+
+FurVarying PointAt(FurVertex v, float height, float opacity) {
+  float h = max(height, 1e-6);
   float3 tip = TipOffset(v.position.xyz, v.direction.xyz);
-  float3 p = v.position.xyz + (v.direction.xyz * (height * furLength) + tip * (pow(h, comb.w) * furLength));
+  float3 p = PlaceAt(v, tip, height);
   FurVarying o;
   o.position = TransformPoint(objectToClip, p);
   o.uv = float4(v.direction.w, v.normal.w, v.furUv.xy);
@@ -41,6 +52,10 @@ FurVarying PointAt(FurVertex v, float height, float opacity) {
   o.direction = TransformVector(objectToEye, v.direction.xyz + tip * (comb.w * pow(h, comb.w - 1.0)));
   o.tangent = float4(TransformVector(objectToEye, v.tangent.xyz), v.tangent.w * normalToWorld[3].w);
   o.fromEye = TransformPoint(objectToEye, p).xyz;
+#ifdef FIN_IN_VOLUME
+  o.before = float4(0, 0, 0, 0);
+  o.behind = float4(0, 0, 0, 0);
+#endif
   return o;
 }
 

@@ -1,6 +1,7 @@
 // The pixel of shells and fins: coverage and colour of the fur at a place and a height, premultiplied.
 // Variants: LOOK_SEED (published lighting), VOLUME (opacity by path length), BETWEEN_SLICES (a shell may lie between two
-// slices of the volume; without it each lies on one), GROOM (clumps, density, colours: fur_groom.hlsli).
+// slices of the volume; without it each lies on one), GROOM (clumps, density, colours: fur_groom.hlsli), TINT (the strands
+// have colours of their own; look correct).
 #ifndef FUR_SHADE_HLSLI
 #define FUR_SHADE_HLSLI
 #ifdef GROOM
@@ -17,15 +18,16 @@ struct Fur {
   float coverage;
   float2 lean;      // GROOM: towards the middle of the clump
   float crowding;   // GROOM: exponent of 1 - coverage
+  float3 own;       // TINT: factor of the colour
 };
 
-float4 ReadSlice(float2 tiles, float slice, float2 dx, float2 dy) {
 #ifdef GROOM
-  return furVolume.SampleGrad(volumeSampler, float3(tiles, slice), dx, dy);
+#define READ_SLICE(map) map.SampleGrad(volumeSampler, float3(tiles, slice), dx, dy)
 #else
-  return furVolume.Sample(volumeSampler, float3(tiles, slice));
+#define READ_SLICE(map) map.Sample(volumeSampler, float3(tiles, slice))
 #endif
-}
+
+float4 ReadSlice(float2 tiles, float slice, float2 dx, float2 dy) { return READ_SLICE(furVolume); }
 
 // Coverage and packed tangent, linear between slices: slice j is centred at (j + 1/2) / N0, and clamped at the ends.
 // The height falloff holds at the slices: a_j (1 - f j / N0).
@@ -43,18 +45,40 @@ float4 ReadVolume(float2 tiles, float height, float2 dx, float2 dy) {
   return fur;
 }
 
+#ifdef TINT
+float3 ReadTintSlice(float2 tiles, float slice, float2 dx, float2 dy) { return READ_SLICE(furTint).rgb; }
+
+// The factor of the fur's colour, linear between slices as all else.
+float3 ReadTint(float2 tiles, float height, float2 dx, float2 dy) {
+  float slice = clamp(height * furShape.z - 0.5, 0.0, furShape.z - 1.0);
+#ifdef BETWEEN_SLICES
+  float below = floor(slice);
+  float above = min(below + 1.0, furShape.z - 1.0);
+  float3 lower = ReadTintSlice(tiles, below, dx, dy);
+  float3 own = lower + (ReadTintSlice(tiles, above, dx, dy) - lower) * (slice - below);
+#else
+  float3 own = ReadTintSlice(tiles, slice, dx, dy);
+#endif
+  return 1.0 + (own * (255.0 / 128.0) - 1.0) * furSemantics.w;
+}
+#else
+float3 ReadTint(float2 tiles, float height, float2 dx, float2 dy) { return float3(1, 1, 1); }
+#endif
+
 Fur ReadFur(float2 tiles, float height) {
   Fur fur;
 #ifdef GROOM
   Clump clump = FindClump(tiles, height);
   float4 read = ReadVolume(clump.root, height, clump.dx, clump.dy);
   fur.coverage = read.a * clump.inside;
+  fur.own = ReadTint(clump.root, height, clump.dx, clump.dy);
   fur.lean = clump.lean;
   // Strands that stand closer together are more of them on the way of light.
   fur.crowding = groom.x * (clump.spread * clump.spread);
 #else
   float4 read = ReadVolume(tiles, height, float2(0, 0), float2(0, 0));
   fur.coverage = read.a;
+  fur.own = ReadTint(tiles, height, float2(0, 0), float2(0, 0));
   fur.lean = float2(0, 0);
   fur.crowding = 1.0;
 #endif
@@ -94,19 +118,21 @@ float3 StrandIn(Fur fur) {
   return strand;
 }
 
-float3 FurAlbedo(FurVarying v) {
+float3 FurAlbedo(FurVarying v, Fur fur) {
   float3 albedo = baseColorMap.Sample(surfaceSampler, v.uv.xy).rgb;
 #ifndef LOOK_SEED
   albedo *= baseColor.rgb;
 #endif
 #ifdef GROOM
-  albedo = GroomedAlbedo(albedo, v.fur.x);
+  albedo = GroomedAlbedo(albedo, v.fur.x, fur.own);
+#elif defined(TINT)
+  albedo = min(albedo * fur.own, 1.0);
 #endif
   return albedo;
 }
 
 float3 FurColor(FurVarying v, Fur fur) {
-  float3 albedo = FurAlbedo(v);
+  float3 albedo = FurAlbedo(v, fur);
   float3 normal = UnitOr(v.normal, float3(0, 0, 1));
   float3 axis = UnitOr(v.direction, normal);
   float3 tangent = UnitOr(v.tangent.xyz - axis * Dot3(v.tangent.xyz, axis), float3(1, 0, 0));

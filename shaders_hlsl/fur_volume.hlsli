@@ -7,6 +7,9 @@
 Texture2D baseColorMap : register(t0);
 Texture2D lengthMap : register(t3);
 Texture2DArray furVolume : register(t4);  // rgb: packed tangent, a: coverage
+#ifdef TINT
+Texture2DArray furTint : register(t8);    // rgb: factor of the colour, byte / 128
+#endif
 SamplerState surfaceSampler : register(s0);
 SamplerState volumeSampler : register(s1);
 

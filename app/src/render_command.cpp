@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -41,7 +42,8 @@ struct RenderFlags {
   std::map<std::string, std::string> fur;  // FurParams keys that flags set, as they were spelled
   uint32_t samples = 1, shells = 0, shellsAtOnce = 1, count = 1, repeat = 1;
   double fov = 0, zNear = 0, zFar = 0, time = 0;
-  double finThreshold = 0.25, finOpacity = 0.9, deadZone = 0.25, spacing = 0;
+  double finThreshold = 0.25, deadZone = 0.25, spacing = 0;
+  std::optional<double> finOpacity;
   bool noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
   std::set<std::string> given;  // the flags on the command line
 };
@@ -279,7 +281,7 @@ void AddShellFlags(CLI::App* c, RenderFlags* f) {
       ->check(CLI::IsMember({"auto", "geometry", "pulled", "compacted"}))->capture_default_str();
   c->add_option("--fin-threshold", f->finThreshold, "Edges this near to the silhouette grow a fading fin, 0..1")
       ->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
-  c->add_option("--fin-opacity", f->finOpacity, "Opacity of a fin on the silhouette, 0..1")->check(kFinite)->check(CLI::Range(0.0, 1.0))->capture_default_str();
+  c->add_option("--fin-opacity", f->finOpacity, "Opacity of a fin on the silhouette, 0..1 (.9; in a volume 1, of its fur's)")->check(kFinite)->check(CLI::Range(0.0, 1.0));
   c->add_option("--spacing", f->spacing, "Distance of two shells in the model's units; the length is N times it")->check(kFinite)->check(CLI::PositiveNumber);
   c->add_flag("--no-back-faces", f->noBackFaces, "Leave out the fur that is seen from behind");
   c->add_flag("--no-sort", f->noSort, "Draw the animals in the order given instead of back to front");

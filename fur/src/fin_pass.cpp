@@ -9,6 +9,15 @@ namespace {
 constexpr uint32_t kFirstSlot = 5;              // t5: vertices, t6: edges, t7: kept edges
 constexpr uint64_t kMostKeptBytes = 64u << 20;  // beyond it fins are pulled; the shaders get indices as floats
 
+// By look seed, by volume, then by + 1: groomed, + 2: tinted, which look seed does not have.
+const rhi::ShaderBlob* const kPixelShaders[2][2][4] = {
+    {{&shaders::fin_PSMain_correct, &shaders::fin_PSMain_correct_groom,
+      &shaders::fin_PSMain_correct_tint, &shaders::fin_PSMain_correct_groom_tint},
+     {&shaders::fin_PSMain_correct_volume, &shaders::fin_PSMain_correct_groom_volume,
+      &shaders::fin_PSMain_correct_tint_volume, &shaders::fin_PSMain_correct_groom_tint_volume}},
+    {{&shaders::fin_PSMain_seed, &shaders::fin_PSMain_seed_groom, nullptr, nullptr},
+     {&shaders::fin_PSMain_seed_volume, &shaders::fin_PSMain_seed_groom_volume, nullptr, nullptr}}};
+
 bool CanCompact(const rhi::Caps& caps) { return caps.compute && caps.drawIndirect; }
 
 FinMode Resolve(const rhi::Caps& caps, FinMode mode) {
@@ -34,18 +43,22 @@ Result<Done> CheckFinMode(const rhi::Caps& caps, const RenderSettings& settings)
 FinPass::FinPass(Creation& c, const RenderSettings& settings)
     : device_(c.Device()), mode_(Resolve(c.Device().GetCaps(), settings.finMode)) {
   if (!settings.drawFins) return;
-  const bool seed = settings.look == Look::Seed;
-  ps_ = {c.Shader(seed ? shaders::fin_PSMain_seed : shaders::fin_PSMain_correct),
-         c.Shader(seed ? shaders::fin_PSMain_seed_groom : shaders::fin_PSMain_correct_groom)};
+  const bool seed = settings.look == Look::Seed, volume = settings.semantics == Semantics::Volume;
+  for (size_t i = 0; i < ps_.size(); ++i)
+    if (const rhi::ShaderBlob* shader = kPixelShaders[seed][volume][i]) ps_[i] = c.Shader(*shader);
   if (mode_ == FinMode::Geometry) {
     vs_.fill(c.Shader(shaders::fin_VSMain));
-    gs_ = {c.Shader(shaders::fin_GSMain), c.Shader(shaders::fin_GSMain_sway)};
+    gs_ = {c.Shader(volume ? shaders::fin_GSMain_volume : shaders::fin_GSMain),
+           c.Shader(volume ? shaders::fin_GSMain_sway_volume : shaders::fin_GSMain_sway)};
     layout_ = FurLayout(c, vs_[0].get());
     return;
   }
-  vs_ = {c.Shader(shaders::fin_pull_VSMain), c.Shader(shaders::fin_pull_VSMain_sway)};
+  vs_ = {c.Shader(volume ? shaders::fin_pull_VSMain_volume : shaders::fin_pull_VSMain),
+         c.Shader(volume ? shaders::fin_pull_VSMain_sway_volume : shaders::fin_pull_VSMain_sway)};
   if (mode_ == FinMode::Pulled) return;
-  compactedVS_ = {c.Shader(shaders::fin_pull_VSMain_compacted), c.Shader(shaders::fin_pull_VSMain_compacted_sway)};
+  compactedVS_ = {c.Shader(volume ? shaders::fin_pull_VSMain_compacted_volume : shaders::fin_pull_VSMain_compacted),
+                  c.Shader(volume ? shaders::fin_pull_VSMain_compacted_sway_volume
+                                  : shaders::fin_pull_VSMain_compacted_sway)};
   compactCS_ = c.Shader(shaders::fin_compact_CSMain);
 }
 
@@ -120,9 +133,9 @@ void FinPass::Draw(rhi::IContext& context, const PassBinding& binding, const Gpu
     if (mesh.edgeCount == 0) continue;
     context.RSSetState(binding.Cull(in.placements[animal], part, rhi::CullMode::None));  // a fin has no back
     const GpuMaterial& material = model.materials[part.material];
-    const size_t sways = material.sways, groomed = material.groomed;
+    const size_t sways = material.sways, shading = (material.groomed ? 1 : 0) + (material.tinted ? 2 : 0);
     PassBinding::SetShaders(context, in, (compacted_ ? compactedVS_ : vs_)[sways].get(), gs_[sways].get(),
-                            ps_[groomed].get());
+                            ps_[shading].get());
     binding.SetMaterial(context, material);
     binding.SetObject(context, in, animal, part, material);
     DrawPart(context, binding, mesh, geometry || !compacted_ ? Slot{} : SlotOf(model, animal, i));

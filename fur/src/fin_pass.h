@@ -33,9 +33,9 @@ class FinPass {
   rhi::IDevice& device_;
   FinMode mode_;
   bool compacted_ = false;  // this frame's edges are
-  // By + 1: swaying; of the pixel shader by + 1: groomed.
-  using Pair = std::array<rhi::Ref<rhi::IShader>, 2>;
-  Pair vs_, gs_, ps_, compactedVS_;
+  using Pair = std::array<rhi::Ref<rhi::IShader>, 2>;  // by + 1: swaying
+  Pair vs_, gs_, compactedVS_;
+  std::array<rhi::Ref<rhi::IShader>, 4> ps_;  // by + 1: groomed, + 2: tinted
   rhi::Ref<rhi::IShader> compactCS_;
   rhi::Ref<rhi::IInputLayout> layout_;
   std::vector<Slot> slots_;

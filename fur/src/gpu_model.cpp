@@ -212,6 +212,20 @@ class Uploader {
                    volume.name);
   }
 
+  rhi::Ref<rhi::IShaderResourceView> Tint(const FurVolume& volume) {
+    return Texture(MakeTintMips(WithoutTopSlice(volume)), volume.width, volume.height, true, rhi::Format::RGBA8_UNorm,
+                   volume.name + " tint");
+  }
+
+  // Strands' own colours belong to look correct: no published system has them.
+  void AddTint(int32_t index, const FurVolume& volume, const FurParams& p, GpuMaterial* gpu) {
+    gpu->tinted = settings_.technique == Technique::Shells && Correct() && p.tint > 0 && !volume.tint.empty();
+    if (!gpu->tinted) return;
+    rhi::Ref<rhi::IShaderResourceView>& uploaded = furTints_[{index, p.thickness}];
+    if (!uploaded) uploaded = Tint(volume);
+    gpu->furTint = uploaded;
+  }
+
   MaterialConstants SurfaceConstants(const Material& m) const {
     MaterialConstants c{};
     const bool mapped = m.specularTexture.image >= 0;
@@ -235,6 +249,15 @@ class Uploader {
       if (model_.primitives[model_.parts[i].primitive].material == material)
         unit = std::cbrt(std::abs(glm::determinant(glm::dmat3(model_.parts[i].transform))));
     return bounds_.Diameter() / 1000 * shells / (unit > 0 ? unit : 1);
+  }
+
+  bool InVolume() const { return settings_.technique == Technique::Shells && settings_.semantics == Semantics::Volume; }
+  double FinOpacity() const { return settings_.finOpacity.value_or(InVolume() ? 1 : 0.9); }
+
+  // Below it shells leave the way through the fur to fins, or, alone, carry the most that a slab can have: docs/accuracy.md.
+  double LeastCosine(uint32_t shells) const {
+    const bool fins = InVolume() && settings_.drawFins && FinOpacity() > 0;
+    return (fins ? 0.5 : 0.25) / std::sqrt(double(shells));
   }
 
   // The groom belongs to technique shells; a preset knows the comb.
@@ -293,12 +316,13 @@ class Uploader {
     rhi::Ref<rhi::IShaderResourceView>& uploaded = furVolumes_[{fur.volume, p.thickness, falloff}];
     if (!uploaded) uploaded = Volume(volume, falloff);
     gpu->furVolume = uploaded;
+    AddTint(fur.volume, volume, p, gpu);
     c->furShape = {float(length), float(p.layerUvScale), float(volume.layers), float(gpu->shells)};
     c->furLight = {float(p.selfShadow), float(p.specularPower), float(p.specularScale), float(falloff)};
     // The longest way through one shell's slab, and the published slabs that one shell stands for: docs/accuracy.md.
-    c->furSemantics = {0.25f / std::sqrt(float(gpu->shells)), float(volume.layers) / float(gpu->shells),
-                       float(length / gpu->shells), 0};
-    c->fin = {float(settings_.finThreshold), float(settings_.finOpacity), float(settings_.finDeadZone), 0};
+    c->furSemantics = {float(LeastCosine(gpu->shells)), float(volume.layers) / float(gpu->shells),
+                       float(length / gpu->shells), float(p.tint)};
+    c->fin = {float(settings_.finThreshold), float(FinOpacity()), float(settings_.finDeadZone), 0};
     // (i + 1/2) N0 / N - 1/2 is whole for every i where N0 / N is odd.
     gpu->betweenSlices = volume.layers % gpu->shells != 0 || volume.layers / gpu->shells % 2 == 0;
     AddGroom(p, gpu, c);
@@ -345,6 +369,8 @@ class Uploader {
   std::map<std::pair<int32_t, MipFilter>, rhi::Ref<rhi::IShaderResourceView>> modelTextures_;
   // By volume, thickness and height falloff.
   std::map<std::tuple<int32_t, double, double>, rhi::Ref<rhi::IShaderResourceView>> furVolumes_;
+  // By volume and thickness, whose coverage weighs.
+  std::map<std::pair<int32_t, double>, rhi::Ref<rhi::IShaderResourceView>> furTints_;
   bool failed_ = false;
   Error error_;
 };

@@ -26,6 +26,7 @@ struct GpuFurMesh {  // of one furred primitive, for technique shells (fur/fur_m
 struct GpuMaterial {
   rhi::Ref<rhi::IShaderResourceView> baseColor, normal, specular;  // never null
   rhi::Ref<rhi::IShaderResourceView> lengthMap, furVolume;         // null on bald materials
+  rhi::Ref<rhi::IShaderResourceView> furTint;                      // null but for `tinted`
   rhi::Ref<rhi::IShaderResourceView> opacityMap, finMap, spots;    // null where the preset has none (presets.h)
   rhi::Ref<rhi::ISamplerState> surfaceSampler;
   rhi::Ref<rhi::IBuffer> constants;  // MaterialConstants
@@ -34,6 +35,7 @@ struct GpuMaterial {
   bool doubleSided = false;
   FurParams groom;                // for how it leans (fur/groom.h), with the settings' comb and wind_length resolved
   bool groomed = false;           // shaded by the variants GROOM
+  bool tinted = false;            // shaded by the variants TINT
   bool sways = false;             // placed by the variants SWAY
   bool wet = false;               // the skin too
 };

@@ -64,6 +64,7 @@ const std::vector<Entry>& Entries() {
       Make("tip_color", "--tip-color", &P::tipColor, "Factors of the fur's colour at the tip, linear", 0, 2),
       Make("color_from_base", "--color-from-base", &P::colorFromBase,
            "How much of the base texture colours the fur; the rest is white", 0, 1),
+      Make("tint", "--tint", &P::tint, "How much of the strands' own colours, where the volume has them, shows", 0, 1),
       Make("clumping", "--clumping", &P::clumping, "How far strands are drawn together towards their tips", 0, 1),
       Make("wetness", "--wetness", &P::wetness, "Clumps, shortens, darkens and shines", 0, 1),
       Make("wind", "--wind", &P::wind, "The way the wind blows, world axes", -1e6, 1e6),

@@ -62,7 +62,8 @@ void PassBinding::SetMaterial(rhi::IContext& context, const GpuMaterial& m) cons
   rhi::IBuffer* const constants[] = {m.constants.get()};
   context.SetConstantBuffers(1, 1, constants);
   rhi::IShaderResourceView* const views[] = {m.baseColor.get(), m.normal.get(), m.specular.get(), m.lengthMap.get(),
-                                             m.furVolume.get(), m.opacityMap.get(), m.finMap.get(), m.spots.get()};
+                                             m.furVolume.get(), m.opacityMap.get(), m.finMap.get(), m.spots.get(),
+                                             m.furTint.get()};
   rhi::ISamplerState* const samplers[] = {m.surfaceSampler.get(), volumeSampler_.get()};
   for (const rhi::Stage stage : {rhi::Stage::Vertex, rhi::Stage::Geometry, rhi::Stage::Pixel}) {
     context.SetShaderResources(stage, 0, uint32_t(std::size(views)), views);

@@ -13,7 +13,7 @@ class PassBinding {
   explicit PassBinding(Creation&);
 
   void BindFrame(rhi::IContext&, const FrameInputs&) const;
-  // Every texture of the material on every graphics stage, t0..t7 and s0, s1 (fur_volume.hlsli; t5..t7: the presets'
+  // Every texture of the material on every graphics stage, t0..t8 and s0, s1 (fur_volume.hlsli; t5..t7: the presets'
   // opacity map, map of fins and furless spots); b1.
   void SetMaterial(rhi::IContext&, const GpuMaterial&) const;
   // b2. `material`: what grows on the part.

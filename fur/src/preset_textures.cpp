@@ -47,6 +47,10 @@ double Coverage(const FurVolume& v, uint32_t x, uint32_t y, uint32_t slice) {
 FurVolume WithoutTopSlice(FurVolume volume) {
   const size_t texels = size_t{volume.width} * volume.height;
   for (size_t i = texels * (volume.layers - 1); i < texels * volume.layers; ++i) volume.pixels[i * 4 + 3] = 0;
+  if (!volume.tint.empty() && volume.layers > 1) {
+    const auto end = volume.tint.end(), top = end - ptrdiff_t(4 * texels);
+    std::copy(top - ptrdiff_t(4 * texels), top, top);
+  }
   return volume;
 }
 

@@ -6,7 +6,8 @@
 
 namespace fur {
 
-// The volume with an empty last slice: what ends the fur (docs/accuracy.md, "Assets").
+// The volume with an empty last slice: what ends the fur (docs/accuracy.md, "Assets"). That slice has the tint of the one
+// below it.
 FurVolume WithoutTopSlice(FurVolume);
 
 // Preset nvidia-d3d10: the colour with the length map in its alpha. A material without a length map keeps the alpha.

@@ -22,6 +22,13 @@ const rhi::ShaderBlob* const kPixelShaders[16] = {
     &shaders::shell_PSMain_between_groom, &shaders::shell_PSMain_between_seed_groom,
     &shaders::shell_PSMain_between_volume_groom, &shaders::shell_PSMain_between_seed_volume_groom};
 
+// Look correct. By + 1: volume, + 2: between slices, + 4: groomed.
+const rhi::ShaderBlob* const kTintedShaders[8] = {
+    &shaders::shell_PSMain_tint, &shaders::shell_PSMain_volume_tint,
+    &shaders::shell_PSMain_between_tint, &shaders::shell_PSMain_between_volume_tint,
+    &shaders::shell_PSMain_groom_tint, &shaders::shell_PSMain_volume_groom_tint,
+    &shaders::shell_PSMain_between_groom_tint, &shaders::shell_PSMain_between_volume_groom_tint};
+
 }  // namespace
 
 Result<Done> CheckShellMode(const rhi::Caps& caps, const RenderSettings& settings) {
@@ -49,8 +56,11 @@ ShellPass::ShellPass(Creation& c, const RenderSettings& settings)
   vs_.still = c.Shader(amplified ? shaders::shell_amplify_VSMain : shaders::shell_VSMain);
   vs_.swaying = amplified ? vs_.still : c.Shader(shaders::shell_VSMain_sway);
   if (amplified) gs_ = {c.Shader(shaders::shell_amplify_GSMain), c.Shader(shaders::shell_amplify_GSMain_sway)};
-  const size_t shader = (settings.look == Look::Seed ? 1u : 0u) + (settings.semantics == Semantics::Volume ? 2u : 0u);
-  for (size_t i = 0; i < ps_.size(); ++i) ps_[i] = c.Shader(*kPixelShaders[shader + 4 * i]);
+  const size_t seed = settings.look == Look::Seed ? 1 : 0, volume = settings.semantics == Semantics::Volume ? 1 : 0;
+  for (size_t i = 0; i < 4; ++i) {
+    ps_[i] = c.Shader(*kPixelShaders[seed + 2 * volume + 4 * i]);
+    if (!seed) ps_[4 + i] = c.Shader(*kTintedShaders[volume + 2 * i]);  // look seed has none
+  }
   layout_ = FurLayout(c, vs_.still.get());
 }
 
@@ -100,7 +110,7 @@ void ShellPass::DrawSide(rhi::IContext& context, const PassBinding& binding, con
     const GpuMaterial& material = model.materials[part.material];
     const GpuFurMesh& mesh = model.furMeshes[part.primitive];
     if (mesh.indexCount == 0) continue;
-    const size_t shader = (material.betweenSlices ? 1u : 0u) + (material.groomed ? 2u : 0u);
+    const size_t shader = (material.betweenSlices ? 1u : 0u) + (material.groomed ? 2u : 0u) + (material.tinted ? 4u : 0u);
     PassBinding::SetShaders(context, in, vs_.For(material), gs_.For(material), ps_[shader].get());
     context.RSSetState(binding.Cull(in.placements[side.animal], part, side.back ? rhi::CullMode::Front : rhi::CullMode::Back));
     binding.SetMaterial(context, material);

@@ -40,7 +40,7 @@ class ShellPass {
   bool backFaces_;
   uint32_t shellsAtOnce_;  // in the geometry shader
   Shaders vs_, gs_;
-  std::array<rhi::Ref<rhi::IShader>, 4> ps_;  // + 1: between slices, + 2: groomed
+  std::array<rhi::Ref<rhi::IShader>, 8> ps_;  // + 1: between slices, + 2: groomed, + 4: tinted
   rhi::Ref<rhi::IInputLayout> layout_;
 };
 

@@ -50,27 +50,34 @@ void Descend(Bundle* bundle, const uint8_t* rgba, float kept, uint32_t width, ui
 // Sums over the texels of mip 0 below one texel of a level. Levels come from sums: nothing is rounded twice.
 struct Sums {
   double count = 0, visibility = 0, visibleCoverage = 0, coverage = 0;
-  std::array<double, 3> color{}, coveredColor{};
+  std::array<double, 4> color{}, coveredColor{};
 
   Sums& operator+=(const Sums& s) {
     count += s.count, visibility += s.visibility, visibleCoverage += s.visibleCoverage, coverage += s.coverage;
-    for (size_t c = 0; c < 3; ++c) color[c] += s.color[c], coveredColor[c] += s.coveredColor[c];
+    for (size_t c = 0; c < 4; ++c) color[c] += s.color[c], coveredColor[c] += s.coveredColor[c];
     return *this;
+  }
+  // Weighted by coverage; the plain mean where nothing is covered.
+  uint8_t MeanOf(size_t channel) const {
+    return uint8_t((coverage > 0 ? coveredColor[channel] / coverage : color[channel] / count) + 0.5);
   }
 };
 
-Sums TexelSums(const uint8_t* rgba, double visibility) {
-  Sums s{1, visibility, visibility * rgba[3], double(rgba[3])};
-  for (size_t c = 0; c < 3; ++c) s.color[c] = rgba[c], s.coveredColor[c] = double(rgba[c]) * rgba[3];
+Sums TexelSums(const uint8_t* rgba, double coverage, double visibility) {
+  Sums s{1, visibility, visibility * coverage, coverage};
+  for (size_t c = 0; c < 4; ++c) s.color[c] = rgba[c], s.coveredColor[c] = rgba[c] * coverage;
   return s;
 }
 
-void WriteTexel(const Sums& s, uint8_t* rgba) {
-  for (size_t c = 0; c < 3; ++c)
-    rgba[c] = uint8_t((s.coverage > 0 ? s.coveredColor[c] / s.coverage : s.color[c] / s.count) + 0.5);
+void WriteVolumeTexel(const Sums& s, uint8_t* rgba) {
+  for (size_t c = 0; c < 3; ++c) rgba[c] = s.MeanOf(c);
   // Where nothing is visible from anywhere there is nothing to weigh with.
   const bool seen = s.visibility > 1e-6 * s.count;
   rgba[3] = uint8_t(std::min(255.0, (seen ? s.visibleCoverage / s.visibility : s.coverage / s.count) + 0.5));
+}
+
+void WriteTintTexel(const Sums& s, uint8_t* rgba) {
+  for (size_t c = 0; c < 4; ++c) rgba[c] = s.MeanOf(c);
 }
 
 // Halves with every texel counted: at an odd size the last box is three wide.
@@ -84,14 +91,16 @@ std::vector<Sums> Halve(uint32_t width, uint32_t height, Source source) {
   return out;
 }
 
-MipChain SliceMips(const uint8_t* rgba, const std::vector<float>& visibility, uint32_t width, uint32_t height) {
+// `source`: the Sums of a texel of `rgba`; `write`: a texel of the level from its Sums.
+template <class Source, class Write>
+MipChain SliceMips(const uint8_t* rgba, uint32_t width, uint32_t height, Source source, Write write) {
   MipChain levels{{rgba, rgba + size_t(width) * height * 4}};
   std::vector<Sums> sums;
   while (width > 1 || height > 1) {
-    sums = levels.size() == 1 ? Halve(width, height, [&](size_t i) { return TexelSums(rgba + i * 4, visibility[i]); })
+    sums = levels.size() == 1 ? Halve(width, height, source)
                               : Halve(width, height, [&](size_t i) -> const Sums& { return sums[i]; });
     std::vector<uint8_t>& level = levels.emplace_back(sums.size() * 4);
-    for (size_t i = 0; i < sums.size(); ++i) WriteTexel(sums[i], &level[i * 4]);
+    for (size_t i = 0; i < sums.size(); ++i) write(sums[i], &level[i * 4]);
     width = std::max(1u, width / 2);
     height = std::max(1u, height / 2);
   }
@@ -109,9 +118,21 @@ std::vector<MipChain> MakeVolumeMips(const FurVolume& volume, double heightFallo
     std::vector<float> visibility(texels);
     for (const Bundle& b : bundles)
       for (size_t i = 0; i < texels; ++i) visibility[i] += b.weight * b.open[i];
-    slices[j] = SliceMips(rgba, visibility, volume.width, volume.height);
+    const auto source = [&](size_t i) { return TexelSums(rgba + i * 4, rgba[i * 4 + 3], double(visibility[i])); };
+    slices[j] = SliceMips(rgba, volume.width, volume.height, source, WriteVolumeTexel);
     const float kept = float(1 - heightFalloff * j / volume.layers);
     for (Bundle& b : bundles) Descend(&b, rgba, kept, volume.width, volume.height);
+  }
+  return slices;
+}
+
+std::vector<MipChain> MakeTintMips(const FurVolume& volume) {
+  const size_t bytes = size_t(volume.width) * volume.height * 4;
+  std::vector<MipChain> slices;
+  for (size_t j = 0; j < volume.layers; ++j) {
+    const uint8_t *tint = &volume.tint[j * bytes], *rgba = &volume.pixels[j * bytes];
+    const auto source = [&](size_t i) { return TexelSums(tint + i * 4, rgba[i * 4 + 3], 1); };
+    slices.push_back(SliceMips(tint, volume.width, volume.height, source, WriteTintTexel));
   }
   return slices;
 }

@@ -15,4 +15,8 @@ namespace fur {
 // directions agree.
 std::vector<MipChain> MakeVolumeMips(const FurVolume&, double heightFalloff);
 
+// For each slice of the volume's tint, its levels: the mean weighted by coverage, so that nothing bleeds from texels
+// without fur; the plain mean where there is none. `volume.tint` is not empty.
+std::vector<MipChain> MakeTintMips(const FurVolume& volume);
+
 }  // namespace fur

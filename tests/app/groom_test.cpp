@@ -35,7 +35,8 @@ std::string Value(const fur::FurKey& key, const std::string& picture) {
       {"specular_power", "3"},   {"specular_scale", "2"},  {"height_falloff", "1"},   {"density", "2"},
       {"thickness", "2"},        {"comb", "0,-1,0"},       {"comb_strength", "2"},    {"bend", "1"},
       {"gravity", "1"},          {"root_color", "0,0,1"},  {"tip_color", "2,0,0"},    {"color_from_base", "0.2"},
-      {"clumping", "1"},         {"wetness", "1"},         {"wind", "0,0,-1"},        {"wind_strength", "2"},
+      {"tint", "0"},            {"clumping", "1"},       {"wetness", "1"},         {"wind", "0,0,-1"},
+      {"wind_strength", "2"},
       {"wind_frequency", "1.7"}, {"wind_length", "0.3"},   {"inertia_stiffness", ""}, {"inertia_damping", ""}};
   const auto it = kValues.find(key.name);
   return it != kValues.end() ? it->second : key.kind == fur::FurKind::Files ? picture + "," + picture : picture;

@@ -15,7 +15,7 @@ TEST(Params, ReadsEveryKey) {
     "direction_map": "d.png", "layers": ["0.png", "1.png"], "layer_uv_scale": 50, "shells": 20, "self_shadow": 0.5,
     "specular_power": 12.5, "specular_scale": 0, "height_falloff": 0.1,
     "density": 2, "thickness": 3, "comb": [1, 2, 3], "comb_strength": 4, "bend": 5, "gravity": 0.6, "furless_map": "f.png",
-    "root_color": [0, 1, 2], "tip_color": [2, 1, 0], "color_from_base": 0.7, "clumping": 0.8, "wetness": 0.9,
+    "root_color": [0, 1, 2], "tip_color": [2, 1, 0], "color_from_base": 0.7, "tint": 0.3, "clumping": 0.8, "wetness": 0.9,
     "wind": [-1, 0, 1], "wind_strength": 1.1, "wind_frequency": 1.2, "wind_length": 1.3, "inertia_stiffness": 14,
     "inertia_damping": 15})");
   ASSERT_TRUE(ApplyFurJson(json, "test", false, &params));
@@ -41,6 +41,7 @@ TEST(Params, ReadsEveryKey) {
   expected.rootColor = {0, 1, 2};
   expected.tipColor = {2, 1, 0};
   expected.colorFromBase = 0.7;
+  expected.tint = 0.3;
   expected.clumping = 0.8;
   expected.wetness = 0.9;
   expected.wind = {-1, 0, 1};

@@ -47,7 +47,8 @@ glm::dvec3 FurTangent(const Model& square) {
 }
 
 void ExpectMidpoints(TestDevice& device, SquareScene scene, const Camera& camera, const std::string& what) {
-  const Model model = FurredSquare(40, scene.color, scene.coat);
+  Model model = FurredSquare(40, scene.color, scene.coat);
+  model.materials[0].fur->params.tint = scene.groom.tint;
   if (scene.look == Look::Correct) scene.tangent = FurTangent(model);
   const FloatImage pixels = Pixels(device, model, Settings(scene, TargetFormat::Float32), camera);
   const Frame frame = Render(device, model, Settings(scene, TargetFormat::Auto), camera);
@@ -79,6 +80,19 @@ TEST_P(Midpoint, VariedCoatFromManySides) {
   for (const SquareScene& scene : Scenes())
     for (const auto& [yaw, pitch] : {std::pair{0.0, 0.0}, {50.0, 0.0}, {-20.0, 55.0}})
       ExpectMidpoints(*device_, scene, CameraAt(3, yaw, pitch), Describe(scene) + " yaw " + std::to_string(yaw));
+}
+
+// Strands of their own colours, brighter and darker than the coat's; look seed does not know them.
+TEST_P(Midpoint, StrandsHaveTheirOwnColors) {
+  for (SquareScene scene : Scenes()) {
+    for (uint32_t i = 0; i < 16; ++i)
+      scene.coat.tints.push_back({uint8_t(60 + 9 * i), uint8_t(200 - 5 * i), uint8_t(90 + 30 * (i % 3)), uint8_t(16 * i)});
+    scene.color = {255, 255, 0, 255};
+    for (const double strength : {1.0, 0.4, 0.0}) {
+      scene.groom.tint = strength;
+      ExpectMidpoints(*device_, scene, CameraAt(3, 20, 25), Describe(scene) + " tint " + std::to_string(strength));
+    }
+  }
 }
 
 // Published: alpha per shell whatever their number, so the fur grows denser with N. The law keeps it: below N0 the

@@ -22,6 +22,8 @@ FurVolume VolumeOf(const Coat& coat) {
   FurVolume volume{"coat", kSide, kSide, uint32_t(coat.slices.size()), {}};
   for (const Texel& t : coat.slices)
     for (uint32_t i = 0; i < kSide * kSide; ++i) volume.pixels.insert(volume.pixels.end(), t.begin(), t.end());
+  for (const Texel& t : coat.tints)
+    for (uint32_t i = 0; i < kSide * kSide; ++i) volume.tint.insert(volume.tint.end(), t.begin(), t.end());
   return volume;
 }
 

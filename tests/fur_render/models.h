@@ -23,6 +23,7 @@ Model BaldSquare(double half, const Texel& color);
 // What grows on the square: one texel for each slice, repeated.
 struct Coat {
   std::vector<Texel> slices;  // root first; rgb: packed tangent, a: coverage
+  std::vector<Texel> tints;  // of the slices (FurVolume::tint), or none
   double length = 0.03, selfShadow = 0.9, specularPower = 30, specularScale = 0.35;
 };
 Coat UniformCoat(uint32_t slices, uint8_t coverage, std::array<uint8_t, 3> tangent = {128, 128, 255});

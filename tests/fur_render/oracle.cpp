@@ -21,11 +21,23 @@ glm::dvec3 Albedo(const SquareScene& s) {
   return s.look == Look::Seed ? raw : glm::dvec3(Decode(raw.x), Decode(raw.y), Decode(raw.z));
 }
 
-// docs/fur.md: white where the base does not count, the gradient, the darkening of wet fur.
+// The strands' own factor, linear between slices; the emptied one is as the one below it.
+glm::dvec3 OwnColor(const SquareScene& s, double height) {
+  const std::vector<Texel>& t = s.coat.tints;
+  if (t.empty() || s.look == Look::Seed) return glm::dvec3(1);
+  const double z = std::clamp(height * double(t.size()) - 0.5, 0.0, double(t.size() - 1));
+  const size_t last = t.size() - 2, below = std::min(size_t(z), last), above = std::min(size_t(z) + 1, last);
+  glm::dvec3 own;
+  for (int c = 0; c < 3; ++c) own[c] = glm::mix(t[below][size_t(c)] / 128.0, t[above][size_t(c)] / 128.0, z - double(size_t(z)));
+  return glm::mix(glm::dvec3(1), own, s.groom.tint);
+}
+
+// docs/fur.md: white where the base does not count, the gradient, the strands' own colours, the
+// darkening of wet fur.
 glm::dvec3 FurAlbedo(const SquareScene& s, double height) {
   const FurParams& g = s.groom;
   const glm::dvec3 base = glm::mix(glm::dvec3(1), Albedo(s), g.colorFromBase);
-  const glm::dvec3 rho = glm::clamp(base * glm::mix(g.rootColor, g.tipColor, height), 0.0, 1.0);
+  const glm::dvec3 rho = glm::clamp(base * glm::mix(g.rootColor, g.tipColor, height) * OwnColor(s, height), 0.0, 1.0);
   return glm::pow(rho, glm::dvec3(1 + g.wetness));
 }
 
@@ -166,7 +178,7 @@ glm::dvec4 MidpointShell(const SquareScene& s, const glm::dvec3& ray, uint32_t s
   const Clumped clump = ClumpAt(s, ray, h);
   const double coverage = std::min(texel.w * (1 - falloff * z / slices), 0.999) * clump.inside;
   double exponent = slices / s.shells * s.groom.density * clump.spread * clump.spread;
-  if (s.semantics == Semantics::Volume) exponent /= std::max(std::abs(ray.z), 0.25 / std::sqrt(double(s.shells)));
+  if (s.semantics == Semantics::Volume) exponent /= std::max(std::abs(ray.z), 0.5 / std::sqrt(double(s.shells)));
   glm::dvec3 t = glm::dvec3(texel) * 2.0 - 1.0;
   t = t + glm::dvec3(clump.lean * t.z, 0);
   const glm::dmat3 frame(s.tangent, glm::cross(glm::dvec3(0, 0, 1), s.tangent), glm::dvec3(0, 0, 1));

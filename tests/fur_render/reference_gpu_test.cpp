@@ -108,6 +108,19 @@ TEST(ReferenceAgainstGpu, Sphere) {
   ExpectAgreementInEveryWay("sphere", model, 4.5);
 }
 
+// Strands of their own colours, in every second texel too.
+TEST(ReferenceAgainstGpu, SphereOfTintedFur) {
+  Coat coat = LeaningCoat(0.25);
+  for (uint32_t i = 0; i < 16; ++i) coat.tints.push_back({uint8_t(40 + 10 * i), uint8_t(170 - 6 * i), 128, 0});
+  Model model = Sphere(3, coat);
+  Tuft(&model);
+  for (size_t i = 0; i < model.volumes[0].tint.size(); i += 8) model.volumes[0].tint[i + 2] = 30;
+  model.materials[0].fur->params.tint = 0.8;
+  const Camera camera = CameraAt(4.5, 30, 20);
+  ExpectAgreement("tinted", model, Look::Correct, Semantics::Volume, camera);
+  ExpectAgreement("tinted", model, Look::Seed, Semantics::Sheet, camera);
+}
+
 TEST(ReferenceAgainstGpu, Cube) { ExpectAgreementInEveryWay("cube", Cube(LeaningCoat(0.4)), 7); }
 
 TEST(ReferenceAgainstGpu, Tetrahedron) { ExpectAgreementInEveryWay("tetra", Tetrahedron(LeaningCoat(0.4)), 7); }

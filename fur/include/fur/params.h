@@ -41,6 +41,7 @@ struct FurParams {
   glm::dvec3 rootColor{1};     // [root_color] linear factors of the fur's colour at the root ...
   glm::dvec3 tipColor{1};      // [tip_color] ... and at the tip
   double colorFromBase = 1;    // [color_from_base] 0..1, how much of the base texture colours the fur; the rest is white
+  double tint = 1;             // [tint] 0..1, how much of the strands' own colours (FurVolume::tint) shows
   double clumping = 0;         // [clumping] 0..1, how far strands are drawn together towards their tips
   double wetness = 0;          // [wetness] 0..1: clumps, shortens, darkens, shines
   glm::dvec3 wind{1, 0, 0};    // [wind] the way it blows, world axes

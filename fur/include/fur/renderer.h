@@ -78,7 +78,9 @@ struct RenderSettings {
   uint32_t shellsAtOnce = 1;
   FinMode finMode = FinMode::Auto;
   double finThreshold = 0.25;  // edges with |e.N| below it grow a fading fin, 0..1; 0: silhouettes only
-  double finOpacity = 0.9;     // of a fin on the silhouette, 0..1
+  // Of a fin on the silhouette, 0..1; none: 0.9, as published. In a volume, factor of the opacity that the fin has by the
+  // fur it stands for; none: 1.
+  std::optional<double> finOpacity;
   bool backFaces = true;       // fur behind the outline, where the skin can be missed
   bool sortAnimals = true;     // back to front
   std::optional<glm::dvec3> comb;  // instead of the coats' own: offset of the tips relative to the fur's length, in the

@@ -11,7 +11,7 @@ namespace fur {
 namespace {
 
 // Changes with anything that changes a picture.
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr std::array<char, 8> kMagic{'f', 'u', 'r', 'r', 'e', 'f', '0', '1'};
 constexpr uint64_t kMostBytes = uint64_t{1} << 33;
 
@@ -68,7 +68,7 @@ void AddMaterial(const Material& m, Hash* hash) {
   hash->Add(furred);
   if (!furred) return;
   const FurParams& p = m.fur->params;
-  for (const double v : {p.length, p.layerUvScale, p.selfShadow, p.specularPower, p.specularScale, p.heightFalloff})
+  for (const double v : {p.length, p.layerUvScale, p.selfShadow, p.specularPower, p.specularScale, p.heightFalloff, p.tint})
     hash->Add(v);
   for (const int32_t v : {m.fur->volume, m.fur->lengthMap, m.fur->directionMap}) hash->Add(v);
 }
@@ -99,6 +99,7 @@ void AddModel(const Model& model, Hash* hash) {
     hash->Add(v.width);
     hash->Add(v.layers);
     hash->Add(v.pixels);
+    hash->Add(v.tint);
   }
 }
 

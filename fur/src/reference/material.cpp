@@ -72,6 +72,10 @@ Coat::Coat(const Model& model, const Material& m, Look look)
   for (size_t layer = 0; layer < filled; ++layer)
     for (size_t i = 0; i < texels; ++i)
       coverage_[i * volume_.layers + layer] = volume_.pixels[(layer * texels + i) * 4 + 3];
+  // The emptied slice has no colours of its own.
+  const size_t top = 4 * texels * (volume_.layers - 1);
+  for (size_t i = top; top > 0 && i < volume_.tint.size(); ++i)
+    volume_.tint[i] = volume_.tint[i - 4 * texels];
 }
 
 double Coat::Texels(const glm::dvec2& tiles) const {
@@ -96,13 +100,13 @@ double Coat::Density(const glm::dvec2& uv, const glm::dvec2& tiles, double h, do
   return -double(n) * std::log(1 - a);
 }
 
-glm::dvec3 Coat::Strand(const glm::dvec2& tiles, double h) const {
+glm::dvec3 Coat::Filtered(const std::vector<uint8_t>& pixels, const glm::dvec2& tiles, double h) const {
   const uint32_t n = volume_.layers;
   const double z = std::clamp(h * n - 0.5, 0.0, double(n - 1));
   const auto below = uint32_t(z), above = std::min(below + 1, n - 1);
   const Cell u = CellAt(tiles.x, volume_.width, true), v = CellAt(tiles.y, volume_.height, true);
   const auto texel = [&](uint32_t x, uint32_t y, uint32_t layer) {
-    const uint8_t* p = &volume_.pixels[((size_t(layer) * volume_.height + y) * volume_.width + x) * 4];
+    const uint8_t* p = &pixels[((size_t(layer) * volume_.height + y) * volume_.width + x) * 4];
     return glm::dvec3(p[0], p[1], p[2]);
   };
   const auto slice = [&](uint32_t layer) {
@@ -113,15 +117,21 @@ glm::dvec3 Coat::Strand(const glm::dvec2& tiles, double h) const {
   return (slice(below) * (1 - (z - below)) + slice(above) * (z - below)) / 255.0;
 }
 
+glm::dvec3 Coat::Own(const glm::dvec2& tiles, double h) const {
+  if (volume_.tint.empty()) return glm::dvec3(1);
+  return 1.0 + (Filtered(volume_.tint, tiles, h) * (255.0 / 128) - 1.0) * params_.tint;
+}
+
 glm::dvec3 Coat::Shade(const Lighting& lit, const glm::dvec3& ray, const FurFrame& frame, const glm::dvec2& uv,
                        const glm::dvec2& tiles, double h) const {
-  const glm::dvec3 albedo = color_.Rgb(uv) * factor_;
+  glm::dvec3 albedo = color_.Rgb(uv) * factor_;
+  if (lit.look == Look::Correct) albedo = glm::min(albedo * Own(tiles, h), 1.0);
   const glm::dvec3 normal = UnitOr(frame.normal, {0, 0, 1}), axis = UnitOr(frame.direction, normal);
   const glm::dvec3 tangent = UnitOr(frame.tangent - axis * glm::dot(frame.tangent, axis), {1, 0, 0});
   // The demo's frames are right-handed everywhere.
   const bool flipped = lit.look == Look::Correct && frame.handedness < 0;
   const glm::dvec3 bitangent = glm::cross(axis, tangent) * (flipped ? -1.0 : 1.0);
-  const glm::dvec3 s = UnpackStrand(Strand(tiles, h));
+  const glm::dvec3 s = UnpackStrand(Filtered(volume_.pixels, tiles, h));
   const glm::dvec3 strand = UnitOr(tangent * s.x + bitangent * s.y + axis * s.z, axis);
   const Light& light = lit.light;
   const double r0 = params_.selfShadow;

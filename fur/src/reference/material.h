@@ -41,7 +41,8 @@ class Coat {
   double Texels(const glm::dvec2& tiles) const;
 
  private:
-  glm::dvec3 Strand(const glm::dvec2& tiles, double h) const;  // packed
+  glm::dvec3 Filtered(const std::vector<uint8_t>& pixels, const glm::dvec2& tiles, double h) const;  // rgb, 0..1
+  glm::dvec3 Own(const glm::dvec2& tiles, double h) const;  // the strands' factor of the colour
 
   FurVolume volume_;
   std::vector<uint8_t> coverage_;  // of the volume, the slices of a texel side by side
