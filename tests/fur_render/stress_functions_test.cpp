@@ -89,7 +89,7 @@ dvec4 Light(const Arguments& x) {
 dvec4 Albedo(const Arguments& x) {
   const MaterialConstants m = Material();
   const dvec3 base = XYZ(x.a) * double(m.groom.z) + (1 - double(m.groom.z));
-  const dvec3 albedo = base * glm::mix(XYZ(m.rootColor), XYZ(m.tipColor), double(x.a.w));
+  const dvec3 albedo = base * glm::mix(XYZ(m.rootColor), XYZ(m.tipColor), double(x.a.w)) * XYZ(x.b);
   return dvec4(glm::pow(glm::clamp(albedo, dvec3(1e-6), dvec3(1)), dvec3(double(m.groom.w))), 0);
 }
 dvec4 Tip(const Arguments& x) {
@@ -159,7 +159,8 @@ std::vector<Function> Functions() {
          return Unit4({a, m->Rarely() ? m->Pick({0.01f, 1, 64}) : m->Between(0.01, 16), 0}, 0);
        },
        64, 1},  // an exponent of 64 multiplies the logarithm's error
-      {"SineOfTurns", Sine, [](Maker* m) { return Unit4({m->Rarely() ? m->Pick({0, 0.25f, 0.5f, -0.75f}) : m->Between(-64, 64), 0, 0}, 0); },
+      {"SineOfTurns", Sine,
+       [](Maker* m) { return Unit4({m->Rarely() ? m->Pick({0, 0.25f, 0.5f, -0.75f}) : m->Between(-64, 64), 0, 0}, 0); },
        32, 1},  // a series of five terms
       {"Encode (sRGB)", Encode,
        [](Maker* m) { return Unit4({m->Rarely() ? m->Pick({0, 0.0031308f, 0.00313081f, 1}) : m->Between(0, 1), 0, 0}, 0); },
@@ -172,7 +173,10 @@ std::vector<Function> Functions() {
        },
        32, 1},  // the highlight's exponent is 30
       {"GroomedAlbedo", Albedo,
-       [](Maker* m) { return Unit4({m->Between(0, 1), m->Between(0, 1), m->Rarely() ? 0 : m->Between(0, 1)}, m->Between(0, 1)); },
+       [](Maker* m) {
+         const glm::vec3 base(m->Between(0, 1), m->Between(0, 1), m->Rarely() ? 0 : m->Between(0, 1));
+         return Arguments{glm::vec4(base, m->Between(0, 1)), glm::vec4(m->Between(0, 2), m->Between(0, 2), 1, 0), {}};
+       },
        4, 1},
       {"TipOffset", Tip,
        [](Maker* m) { return Arguments{glm::vec4(m->Vector(3), 0), glm::vec4(m->Direction(), 0), {}}; }, 16, 1},
