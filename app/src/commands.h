@@ -12,6 +12,7 @@ namespace app {
 using Command = std::function<int()>;
 
 void AddRenderCommand(CLI::App& app, Command* run);
+void AddReferenceCommand(CLI::App& app, Command* run);
 void AddCompareCommand(CLI::App& app, Command* run);
 void AddBakeCommand(CLI::App& app, Command* run);
 void AddInfoCommand(CLI::App& app, Command* run);

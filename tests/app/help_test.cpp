@@ -7,7 +7,7 @@ namespace {
 TEST(Help, NamesTheCommands) {
   const Outcome o = RunFur({"--help"});
   ExpectSuccess(o);
-  for (const char* word : {"render", "bake", "compare", "info", "--version", "Exit codes"})
+  for (const char* word : {"render", "reference", "bake", "compare", "info", "--version", "Exit codes"})
     EXPECT_NE(o.out.find(word), std::string::npos) << word << " is not in:\n" << o.out;
 }
 
@@ -27,6 +27,14 @@ TEST(Help, CompareNamesEveryFlag) {
   for (const char* flag : {"--json", "--heat", "--heat-scale", "--mask", "--band", "--ppd", "--max-flip",
                            "--max-mask-flip", "--max-rmse", "--max-difference", "--min-ssim", "--min-psnr",
                            "--max-differing-share"})
+    EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
+}
+
+TEST(Help, ReferenceNamesEveryFlag) {
+  const Outcome o = RunFur({"reference", "--help"});
+  ExpectSuccess(o);
+  for (const char* flag : {"--output", "--mask", "--band", "--spp", "--seed", "--threads", "--tolerance", "--crop", "--cache",
+                           "--no-cache", "--size", "--look", "--groom", "--time", "MODEL"})
     EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
 }
 

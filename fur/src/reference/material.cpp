@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fur/groom.h"
 #include "mips.h"
 
 namespace fur::reference {
@@ -56,7 +57,8 @@ Lighting::Lighting(const ReferenceSettings& s)
     : look(s.look), light(s.light), travel(UnitOr(s.light.direction, {0, -1, 0})) {}
 
 Coat::Coat(const Model& model, const Material& m, Look look)
-    : volume_(model.volumes[size_t(m.fur->volume)]),
+    : volume_(m.fur->params.thickness == 1 ? model.volumes[size_t(m.fur->volume)]
+                                           : Thickened(model.volumes[size_t(m.fur->volume)], m.fur->params.thickness)),
       params_(m.fur->params),
       falloff_(look == Look::Seed ? 1 : m.fur->params.heightFalloff),  // the demo's shells, whatever the volume holds
       color_(ColorTexture(model, m, look)),
@@ -90,7 +92,7 @@ double Coat::Density(const glm::dvec2& uv, const glm::dvec2& tiles, double h, do
   const double filtered = (low * (1 - v.fraction) + high * v.fraction) / 255;
   const double a = std::min(filtered * (1 - falloff_ * z / n), kMostCoverage);
   if (!(a > 0) || (hasLengthMap_ && h * length > length_.Red(uv))) return 0;
-  return -double(n) * std::log(1 - a);
+  return -double(n) * params_.density * std::log(1 - a);
 }
 
 glm::dvec3 Coat::Strand(const glm::dvec2& tiles, double h) const {
@@ -110,9 +112,17 @@ glm::dvec3 Coat::Strand(const glm::dvec2& tiles, double h) const {
   return (slice(below) * (1 - (z - below)) + slice(above) * (z - below)) / 255.0;
 }
 
+// docs/fur.md, "Colour".
+glm::dvec3 Coat::Albedo(const glm::dvec2& uv, double h) const {
+  const glm::dvec3 base = color_.Rgb(uv) * factor_;
+  if (!IsGroomed(params_)) return base;
+  const glm::dvec3 dyed = glm::mix(glm::dvec3(1), base, params_.colorFromBase);
+  return glm::min(dyed * glm::mix(params_.rootColor, params_.tipColor, h), glm::dvec3(1));
+}
+
 glm::dvec3 Coat::Shade(const Lighting& lit, const glm::dvec3& ray, const FurFrame& frame, const glm::dvec2& uv,
                        const glm::dvec2& tiles, double h) const {
-  const glm::dvec3 albedo = color_.Rgb(uv) * factor_;
+  const glm::dvec3 albedo = Albedo(uv, h);
   const glm::dvec3 normal = UnitOr(frame.normal, {0, 0, 1}), axis = UnitOr(frame.direction, normal);
   const glm::dvec3 tangent = UnitOr(frame.tangent - axis * glm::dot(frame.tangent, axis), {1, 0, 0});
   // The demo's frames are right-handed everywhere.

@@ -41,6 +41,7 @@ class Coat {
   double Texels(const glm::dvec2& tiles) const;
 
  private:
+  glm::dvec3 Albedo(const glm::dvec2& uv, double h) const;
   glm::dvec3 Strand(const glm::dvec2& tiles, double h) const;  // packed
 
   FurVolume volume_;
