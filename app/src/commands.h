@@ -14,6 +14,7 @@ using Command = std::function<int()>;
 void AddRenderCommand(CLI::App& app, Command* run);
 void AddReferenceCommand(CLI::App& app, Command* run);
 void AddCompareCommand(CLI::App& app, Command* run);
+void AddBenchCommand(CLI::App& app, Command* run);
 void AddBakeCommand(CLI::App& app, Command* run);
 void AddInfoCommand(CLI::App& app, Command* run);
 

@@ -34,6 +34,7 @@ int Main(int argc, char** argv) {
   AddRenderCommand(app, &run);
   AddReferenceCommand(app, &run);
   AddCompareCommand(app, &run);
+  AddBenchCommand(app, &run);
   AddBakeCommand(app, &run);
   AddInfoCommand(app, &run);
   try {

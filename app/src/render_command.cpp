@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "flag_checks.h"
+#include "fur/bench.h"
 #include "fur/file.h"
 #include "fur/image_io.h"
 #include "picture_file.h"
@@ -84,7 +85,7 @@ std::vector<std::filesystem::path> OutputFiles(const RenderFlags& f) {
 }
 
 std::string Throughput(const RenderOutcome& out) {
-  return fmt::format("{:.1f} ms a frame (median of {}; the first took {:.0f} ms), {} draws, {} fragments", Median(out.frameMs),
+  return fmt::format("{:.1f} ms a frame (median of {}; the first took {:.0f} ms), {} draws, {} fragments", fur::Median(out.frameMs),
                      out.frameMs.size(), out.firstFrameMs, out.counts.draws,
                      out.counts.baseFragments + out.counts.finFragments + out.counts.shellFragments);
 }

@@ -7,7 +7,7 @@ namespace {
 TEST(Help, NamesTheCommands) {
   const Outcome o = RunFur({"--help"});
   ExpectSuccess(o);
-  for (const char* word : {"render", "reference", "bake", "compare", "info", "--version", "Exit codes"})
+  for (const char* word : {"render", "reference", "bench", "bake", "compare", "info", "--version", "Exit codes"})
     EXPECT_NE(o.out.find(word), std::string::npos) << word << " is not in:\n" << o.out;
 }
 
@@ -35,6 +35,14 @@ TEST(Help, ReferenceNamesEveryFlag) {
   ExpectSuccess(o);
   for (const char* flag : {"--output", "--mask", "--band", "--spp", "--seed", "--threads", "--tolerance", "--crop", "--cache",
                            "--no-cache", "--size", "--look", "--groom", "--time", "MODEL"})
+    EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
+}
+
+TEST(Help, BenchNamesEveryFlag) {
+  const Outcome o = RunFur({"bench", "--help"});
+  ExpectSuccess(o);
+  for (const char* flag : {"--quick", "--list", "--scenes", "--configs", "--techniques", "--backend", "--size", "--rounds", "--spp",
+                           "--json", "--html", "--agree", "--assets", "--cache", "--no-cache"})
     EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
 }
 
