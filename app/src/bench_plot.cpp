@@ -51,17 +51,20 @@ std::vector<double> Ticks(double low, double high, double apart, const At& at) {
 }
 
 std::string Line(const char* kind, double x0, double y0, double x1, double y1) {
-  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>", kind, x0, y0, x1, y1);
+  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>", kind, x0, y0, x1,
+                     y1);
 }
 
 std::string Text(const char* kind, const char* anchor, double x, double y, const std::string& text) {
-  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", kind, x, y, anchor, Escaped(text));
+  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", kind, x, y, anchor,
+                     Escaped(text));
 }
 
 std::string Grid(const Axes& a) {
   std::string svg;
   for (const double e : Ticks(a.yLow, a.yHigh, 24, [&](double v) { return a.Y(v); }))
-    svg += Line("grid", kLeft, a.Y(e), kWidth - kRight, a.Y(e)) + Text("tick", "end", kLeft - 6, a.Y(e) + 4, fmt::format("{:.3g}", e));
+    svg += Line("grid", kLeft, a.Y(e), kWidth - kRight, a.Y(e)) +
+           Text("tick", "end", kLeft - 6, a.Y(e) + 4, fmt::format("{:.3g}", e));
   for (const double ms : Ticks(a.xLow, a.xHigh, 36, [&](double v) { return a.X(v); }))
     svg += Line("grid", a.X(ms), kTop, a.X(ms), kHeight - kBottom) +
            Text("tick", "middle", a.X(ms), kHeight - kBottom + 16, fmt::format("{:.4g}", ms));
@@ -86,7 +89,8 @@ std::vector<std::pair<double, double>> FrontOf(const Plot& plot, size_t series, 
 
 std::string Front(const Plot& plot, size_t series, const Axes& a) {
   std::string path;
-  for (const auto& [x, y] : FrontOf(plot, series, a)) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
+  for (const auto& [x, y] : FrontOf(plot, series, a))
+    path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
   return path.empty() ? "" : fmt::format("<path class=\"front s{}\" d=\"{}\"/>", series, path);
 }
 
@@ -94,8 +98,11 @@ std::string Mark(const PlotPoint& p, double x, double y) {
   const std::string title = fmt::format("<title>{}: {:.3g} ms, FLIP {:.4f}</title>", Escaped(p.label), p.ms, p.error);
   const std::string style = fmt::format("class=\"point s{}{}\"", p.series, p.onFront ? "" : " hollow");
   if (p.isBaseline)
-    return fmt::format("<rect {} x=\"{:.1f}\" y=\"{:.1f}\" width=\"9\" height=\"9\">{}</rect>", style, x - 4.5, y - 4.5, title);
-  const std::string ring = p.isDefault ? fmt::format("<circle class=\"ring s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\"/>", p.series, x, y) : "";
+    return fmt::format("<rect {} x=\"{:.1f}\" y=\"{:.1f}\" width=\"9\" height=\"9\">{}</rect>", style, x - 4.5, y - 4.5,
+                       title);
+  const std::string ring =
+      p.isDefault ? fmt::format("<circle class=\"ring s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\"/>", p.series, x, y)
+                  : "";
   return ring + fmt::format("<circle {} cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">{}</circle>", style, x, y, kRadius, title);
 }
 
@@ -109,7 +116,8 @@ Box PlaceLabel(double x, double y, double width, const std::vector<Box>& taken) 
   Box box{};
   for (double distance = 9; distance < 400; distance += 6)
     for (const double angle : {0.0, 180.0, -30.0, 30.0, -150.0, 150.0, -60.0, 60.0, -120.0, 120.0, -90.0, 90.0}) {
-      const double dx = std::cos(angle * 3.14159265358979 / 180) * distance, dy = std::sin(angle * 3.14159265358979 / 180) * distance;
+      const double dx = std::cos(angle * 3.14159265358979 / 180) * distance,
+                   dy = std::sin(angle * 3.14159265358979 / 180) * distance;
       const double left = std::abs(dx) < 1 ? x - width / 2 : dx > 0 ? x + dx : x + dx - width;
       box = {left, y + dy - kLine / 2, left + width, y + dy + kLine / 2};
       if (IsFree(box, taken)) return box;
@@ -153,7 +161,8 @@ std::string Legend(const Plot& plot) {
   std::string svg;
   double x = kLeft;
   for (size_t i = 0; i < plot.series.size(); ++i) {
-    svg += fmt::format("<circle class=\"point s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", i, x + 5, kHeight - 14, kRadius);
+    svg += fmt::format("<circle class=\"point s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", i, x + 5, kHeight - 14,
+                       kRadius);
     svg += Text("axis", "start", x + 14, kHeight - 10, plot.series[i]);
     x += 34 + kLetter * double(plot.series[i].size());
   }
@@ -179,7 +188,8 @@ std::string Escaped(const std::string& text) {
 
 std::string PlotSvg(const Plot& plot) {
   const Axes a = AxesFor(plot);
-  std::string svg = fmt::format("<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", kWidth, kHeight, Escaped(plot.title));
+  std::string svg = fmt::format("<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", kWidth,
+                                kHeight, Escaped(plot.title));
   svg += Text("title", "middle", kWidth / 2, 16, plot.title) + Grid(a);
   for (size_t i = 0; i < plot.series.size(); ++i) svg += Front(plot, i, a);
   svg += Labels(plot, a);

@@ -65,7 +65,8 @@ fur::ReferenceImage Mean(const fur::ReferenceImage& a, const fur::ReferenceImage
 
 BenchCrop CropOf(const fur::BenchScene& scene, const BenchOptions& o) {
   const auto part = [](double share, uint32_t side) { return uint32_t(std::lround(share * side)); };
-  BenchCrop c{part(scene.crop[0], o.width), part(scene.crop[1], o.height), part(scene.crop[2], o.width), part(scene.crop[3], o.height)};
+  BenchCrop c{part(scene.crop[0], o.width), part(scene.crop[1], o.height), part(scene.crop[2], o.width),
+              part(scene.crop[3], o.height)};
   c.width = std::clamp(c.width, 1u, o.width - c.x);
   c.height = std::clamp(c.height, 1u, o.height - c.y);
   return c;
@@ -114,8 +115,8 @@ Result<BenchTruth> BenchTruth::Make(const fur::Model& model, const std::vector<S
     angle.bytes = Rounded(angle.floats);
     angle.regions.mask = fur::MaskOf(mean);
     angle.regions.band = fur::BandOf(mean);
-    const Result<fur::Comparison> c = fur::ComparePictures(AsPicture(halves[0].color, render.look, true),
-                                                           AsPicture(halves[1].color, render.look, true), angle.regions);
+    const Result<fur::Comparison> c = fur::ComparePictures(
+        AsPicture(halves[0].color, render.look, true), AsPicture(halves[1].color, render.look, true), angle.regions);
     if (!c) return c.error();
     truth.report_.halvesFlip += c->flip.maskMean.value_or(0) / double(views.size());
     truth.report_.halvesRmse += c->maskRmse.value_or(0) / double(views.size());
@@ -137,7 +138,8 @@ std::vector<uint8_t> ShownBytes(fur::Picture picture) {
 }
 
 // Whole pixels are averaged: a wide picture becomes a whole fraction of itself.
-BenchPicture Thumbnail(const std::vector<uint8_t>& frame, const std::vector<uint8_t>& heat, uint32_t width, uint32_t height) {
+BenchPicture Thumbnail(const std::vector<uint8_t>& frame, const std::vector<uint8_t>& heat, uint32_t width,
+                       uint32_t height) {
   const uint32_t by = (width + kShownWidth - 1) / kShownWidth;
   BenchPicture small{std::max(1u, width / by), std::max(1u, height / by), {}, {}};
   const auto shrink = [&](const std::vector<uint8_t>& from, std::vector<uint8_t>* to) {

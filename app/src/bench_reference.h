@@ -25,7 +25,8 @@ class BenchTruth {
  public:
   // Two halves of the samples with seeds of their own; their mean is the reference.
   static fur::Result<BenchTruth> Make(const fur::Model&, const std::vector<SceneView>&, const fur::RenderSettings&,
-                                      const BenchCrop&, const BenchOptions&, const std::function<void(double)>& progress);
+                                      const BenchCrop&, const BenchOptions&,
+                                      const std::function<void(double)>& progress);
   // A frame of 8 bits is compared with the reference rounded to 8 bits.
   fur::Result<fur::Comparison> Compare(size_t angle, const BenchFrame&) const;
   bool IsFor(const fur::RenderSettings&) const;
@@ -42,6 +43,7 @@ class BenchTruth {
 
 // RGBA8 to look at, no wider than the page shows it.
 std::vector<uint8_t> ShownBytes(fur::Picture);
-BenchPicture Thumbnail(const std::vector<uint8_t>& frame, const std::vector<uint8_t>& heat, uint32_t width, uint32_t height);
+BenchPicture Thumbnail(const std::vector<uint8_t>& frame, const std::vector<uint8_t>& heat, uint32_t width,
+                       uint32_t height);
 
 }  // namespace app

@@ -23,8 +23,8 @@ std::string BenchTable(const BenchSceneResult&);
 // One file that needs no other and no network.
 fur::Result<std::string> BenchHtml(const BenchReport&);
 
-// One line for each ratio whose interval does not meet that of the same configuration in an earlier run's JSON, and how many
-// were compared. Usage where the JSON is no such report or has nothing in common with this one.
+// One line for each ratio whose interval does not meet that of the same configuration in an earlier run's JSON, and how
+// many were compared. Usage where the JSON is no such report or has nothing in common with this one.
 struct BenchAgreement {
   uint32_t compared = 0;
   std::vector<std::string> apart;

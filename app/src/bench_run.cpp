@@ -85,7 +85,8 @@ class SceneRun {
       if (!s) return s.error();
       if (TruthFor(*s)) continue;
       const std::string what = out_.scene.name + " reference " + std::to_string(truths_.size() + 1);
-      Result<BenchTruth> truth = BenchTruth::Make(model_, views_, *s, crop_, options_, [&](double share) { progress_(what, share); });
+      Result<BenchTruth> truth =
+          BenchTruth::Make(model_, views_, *s, crop_, options_, [&](double share) { progress_(what, share); });
       if (!truth) return truth.error();
       out_.references.push_back(truth->Report());
       truths_.push_back(std::move(*truth));
@@ -104,11 +105,13 @@ class SceneRun {
       return Done{};
     }
     if (!renderer) return renderer.error();
-    Contestant c{{config, device.backend->name, device.device->GetCaps().driver.data()}, *settings, std::move(*renderer)};
+    Contestant c{
+        {config, device.backend->name, device.device->GetCaps().driver.data()}, *settings, std::move(*renderer)};
     const Result<double> first = TimeFrame(*c.renderer, views_[0].camera, views_[0].placements);
     if (!first) return first.error();
     c.result.firstFrameMs = *first;
-    const Result<BenchError> error = Measure(*c.renderer, *settings, pictures && options_.pictures ? &c.result.picture : nullptr);
+    const Result<BenchError> error =
+        Measure(*c.renderer, *settings, pictures && options_.pictures ? &c.result.picture : nullptr);
     if (!error) return error.error();
     c.result.error = *error;
     if (config.settings.technique == fur::Technique::Seed)
@@ -120,7 +123,8 @@ class SceneRun {
     return Done{};
   }
 
-  Result<BenchError> Measure(fur::Renderer& renderer, const fur::RenderSettings& settings, BenchPicture* picture) const {
+  Result<BenchError> Measure(fur::Renderer& renderer, const fur::RenderSettings& settings,
+                             BenchPicture* picture) const {
     const BenchTruth& truth = *TruthFor(settings);
     BenchError mean;
     const double n = double(views_.size());
@@ -138,7 +142,8 @@ class SceneRun {
       mean.rmse += c->rmse / n;
       if (c->bandOpacityRmse) mean.bandRmse = mean.bandRmse.value_or(0) + *c->bandOpacityRmse / n;
       if (picture && i == 0)
-        *picture = Thumbnail(ShownBytes(frame->picture), fur::HeatMap(c->flipMap, kHeatScale), crop_.width, crop_.height);
+        *picture =
+            Thumbnail(ShownBytes(frame->picture), fur::HeatMap(c->flipMap, kHeatScale), crop_.width, crop_.height);
     }
     return mean;
   }

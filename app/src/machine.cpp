@@ -15,7 +15,8 @@ namespace {
 std::string ModelOfCpu() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);)
-    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
+    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos)
+      return line.substr(line.find(": ") + 2);
   return "unknown";
 }
 
@@ -54,6 +55,8 @@ Machine DescribeMachine() {
   m.command = CommandLine();
   return m;
 }
+
+bool IsBusy(const Machine& m, double load) { return load > 0.25 * m.cores; }
 
 double LoadAverage() {
   double load = -1;

@@ -14,4 +14,7 @@ Machine DescribeMachine();
 // Mean number of runnable threads over the last minute; -1 where the system does not say.
 double LoadAverage();
 
+// Others use a quarter of the cores or more.
+bool IsBusy(const Machine&, double load);
+
 }  // namespace app

@@ -22,7 +22,8 @@ void ProgressBar::Show(const std::string& what, double share) {
   last_ = percent;
   what_ = what;
   const int filled = percent * kWidth / 100;
-  fmt::print(stderr, "\r{:<{}.{}} [{:=<{}}{:{}}] {:3} %", what, kWords, kWords, "", filled, "", kWidth - filled, percent);
+  fmt::print(stderr, "\r{:<{}.{}} [{:=<{}}{:{}}] {:3} %", what, kWords, kWords, "", filled, "", kWidth - filled,
+             percent);
   std::fflush(stderr);
 }
 

@@ -36,11 +36,13 @@ struct ReferenceFlags {
 Result<Done> SetCrop(const std::string& text, fur::ReferenceSettings* s) {
   if (text.empty()) return Done{};
   char rest = 0;
-  const int read = std::sscanf(text.c_str(), "%u,%u,%u,%u%c", &s->cropX, &s->cropY, &s->cropWidth, &s->cropHeight, &rest);
+  const int read =
+      std::sscanf(text.c_str(), "%u,%u,%u,%u%c", &s->cropX, &s->cropY, &s->cropWidth, &s->cropHeight, &rest);
   const bool fits = s->cropX < s->width && s->cropY < s->height && s->cropWidth <= s->width - s->cropX &&
                     s->cropHeight <= s->height - s->cropY && s->cropWidth > 0 && s->cropHeight > 0;
   if (read == 4 && fits && text.find('-') == std::string::npos) return Done{};
-  return Error{ErrorCode::Usage, fmt::format("--crop takes x,y,width,height within {}x{}, not '{}'", s->width, s->height, text)};
+  return Error{ErrorCode::Usage,
+               fmt::format("--crop takes x,y,width,height within {}x{}, not '{}'", s->width, s->height, text)};
 }
 
 Result<fur::ReferenceSettings> MakeSettings(const ReferenceFlags& f) {
@@ -104,7 +106,10 @@ Result<CachedReference> Obtain(const ReferenceFlags& f, const fur::Model& model,
                                fur::ReferenceSettings settings) {
   ProgressBar bar(f.progress);
   settings.progress = [&](double done) { bar.Show("reference", done); };
-  return ObtainReference(f.noCache ? std::string() : f.cache.empty() ? DefaultCacheFolder() : f.cache, model, view, settings);
+  return ObtainReference(f.noCache         ? std::string()
+                         : f.cache.empty() ? DefaultCacheFolder()
+                                           : f.cache,
+                         model, view, settings);
 }
 
 Result<Done> Run(const ReferenceFlags& f) {
@@ -127,16 +132,23 @@ Result<Done> Run(const ReferenceFlags& f) {
 
 void AddFlags(CLI::App* c, ReferenceFlags* f) {
   AddSceneFlags(c, &f->scene);
-  c->add_option("-o,--output", f->output, "PNG, or EXR: linear floats over the background, alpha the opacity")->capture_default_str();
+  c->add_option("-o,--output", f->output, "PNG, or EXR: linear floats over the background, alpha the opacity")
+      ->capture_default_str();
   c->add_option("--mask", f->mask, "PNG or EXR of the fur's opacity, for fur compare --mask");
-  c->add_option("--band", f->band, "PNG or EXR of the fur's opacity where no skin lies behind it, for fur compare --band");
+  c->add_option("--band", f->band,
+                "PNG or EXR of the fur's opacity where no skin lies behind it, for fur compare --band");
   c->add_option("--spp", f->samples, "Stratified samples a pixel, rounded up to a full grid")
-      ->check(CLI::Range(1u, kMaxSamples))->capture_default_str();
-  c->add_option("--seed", f->seed, "Of the samples' jitter: two seeds give two independent pictures")->capture_default_str();
+      ->check(CLI::Range(1u, kMaxSamples))
+      ->capture_default_str();
+  c->add_option("--seed", f->seed, "Of the samples' jitter: two seeds give two independent pictures")
+      ->capture_default_str();
   c->add_option("--threads", f->threads, "Threads; 0: one for each core. The picture does not depend on it")
-      ->check(CLI::Range(0u, kMaxThreads))->capture_default_str();
+      ->check(CLI::Range(0u, kMaxThreads))
+      ->capture_default_str();
   c->add_option("--tolerance", f->tolerance, "Error allowed to a step of the integration")
-      ->check(kFinite)->check(CLI::Range(1e-12, 1.0))->capture_default_str();
+      ->check(kFinite)
+      ->check(CLI::Range(1e-12, 1.0))
+      ->capture_default_str();
   c->add_option("--crop", f->crop, "Renders x,y,width,height of the picture only");
   c->add_option("--cache", f->cache, "Folder of finished pictures; default $XDG_CACHE_HOME/fur or ~/.cache/fur");
   c->add_flag("--no-cache", f->noCache, "Neither look for a finished picture nor keep this one");

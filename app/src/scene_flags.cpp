@@ -66,7 +66,8 @@ Result<fur::Camera> MakeCamera(const SceneFlags& f, const fur::Model& model, dou
   } else {
     camera = fur::FramePoints(FurredPoints(model, placements), f.fov > 0 ? f.fov : 40, aspect, scale);
   }
-  for (const auto& [flag, text, value] : {std::tuple{"--eye", &f.eye, &camera.eye}, {"--target", &f.target, &camera.target}}) {
+  for (const auto& [flag, text, value] :
+       {std::tuple{"--eye", &f.eye, &camera.eye}, {"--target", &f.target, &camera.target}}) {
     if (text->empty()) continue;
     Result<glm::dvec3> parsed = ParseVector(*text, flag);
     if (!parsed) return parsed.error();
@@ -77,7 +78,8 @@ Result<fur::Camera> MakeCamera(const SceneFlags& f, const fur::Model& model, dou
   if (camera.zFar <= camera.zNear) return Error{ErrorCode::Usage, "--far must be larger than --near"};
   const glm::dvec3 view = camera.target - camera.eye;
   if (glm::length(glm::cross(view, camera.up)) <= 1e-9 * glm::length(view))
-    return Error{ErrorCode::Usage, "--eye and --target must differ, and not be above one another: the view needs an up direction"};
+    return Error{ErrorCode::Usage,
+                 "--eye and --target must differ, and not be above one another: the view needs an up direction"};
   return camera;
 }
 
@@ -130,13 +132,18 @@ void PrintMessages(const std::vector<std::string>& messages) {
 void AddSceneFlags(CLI::App* c, SceneFlags* f) {
   c->add_option("MODEL", f->model, "A .gltf or .glb file; without it, the built-in animal");
   c->add_option("--size", f->size, "Width x height in pixels")->capture_default_str();
-  c->add_option("--look", f->look, "Lighting and colour: seed (as published, raw values) or correct (sRGB, linear light)")
-      ->check(CLI::IsMember({"seed", "correct"}))->capture_default_str();
-  c->add_option("--semantics", f->semantics, "A shell is a sheet (default as published: technique or look seed), or a slab of a volume")
+  c->add_option("--look", f->look,
+                "Lighting and colour: seed (as published, raw values) or correct (sRGB, linear light)")
+      ->check(CLI::IsMember({"seed", "correct"}))
+      ->capture_default_str();
+  c->add_option("--semantics", f->semantics,
+                "A shell is a sheet (default as published: technique or look seed), or a slab of a volume")
       ->check(CLI::IsMember({"sheet", "volume"}));
   c->add_option("--eye", f->eye, "Eye, X,Y,Z; without --eye and --target the camera frames the animals");
   c->add_option("--target", f->target, "Point looked at, X,Y,Z");
-  c->add_option("--fov", f->fov, "Vertical field of view in degrees; default 65, or 40 when framing")->check(kFinite)->check(CLI::Range(0.1, 179.0));
+  c->add_option("--fov", f->fov, "Vertical field of view in degrees; default 65, or 40 when framing")
+      ->check(kFinite)
+      ->check(CLI::Range(0.1, 179.0));
   c->add_option("--near", f->zNear, "Near plane")->check(kFinite)->check(CLI::PositiveNumber);
   c->add_option("--far", f->zFar, "Far plane")->check(kFinite)->check(CLI::PositiveNumber);
   c->add_option("--count", f->count, "Number of animals")->check(CLI::Range(1u, kMaxAnimals))->capture_default_str();
@@ -144,7 +151,9 @@ void AddSceneFlags(CLI::App* c, SceneFlags* f) {
   c->add_option("--fur-material", f->furMaterial, "Grow fur on the material of this name only");
   c->add_option("--time", f->time, "Seconds that the wind has blown")->check(kFinite)->check(CLI::Range(0.0, 1e9));
   AddGroomFlags(c, &f->fur);
-  c->add_option("--background", f->background, "Background, R,G,B in 0..1: linear, default a grey, for look correct; raw, default black, for look seed");
+  c->add_option(
+      "--background", f->background,
+      "Background, R,G,B in 0..1: linear, default a grey, for look correct; raw, default black, for look seed");
 }
 
 }  // namespace app

@@ -59,8 +59,8 @@ RenderSettings Shells(uint32_t count) {
 }
 
 // The default with one thing changed.
-BenchConfig Changed(const std::string& what, const std::string& note, const std::function<void(RenderSettings*)>& change,
-                    bool quick = false) {
+BenchConfig Changed(const std::string& what, const std::string& note,
+                    const std::function<void(RenderSettings*)>& change, bool quick = false) {
   BenchConfig config{"shells-" + what, note, RenderSettings{}, quick};
   change(&config.settings);
   return config;
@@ -79,21 +79,28 @@ std::vector<BenchScene> BenchScenes() {
 std::vector<BenchConfig> BenchConfigs() {
   std::vector<BenchConfig> configs{{"seed", "as published: the baseline", Published(), true}};
   for (const uint32_t n : {8u, 16u, 32u})
-    configs.push_back({"seedlook-" + std::to_string(n), std::to_string(n) + " shells in the seed's look", SeedLook(n), n == 16});
+    configs.push_back(
+        {"seedlook-" + std::to_string(n), std::to_string(n) + " shells in the seed's look", SeedLook(n), n == 16});
   configs.push_back({"shells", "the default: as many shells as the coat says", RenderSettings{}, true, true});
   for (const uint32_t n : {4u, 8u, 32u, 64u})
     configs.push_back({"shells-" + std::to_string(n), std::to_string(n) + " shells", Shells(n), n <= 32});
-  configs.push_back(Changed("no-fins", "without fins", [](RenderSettings* s) { s->drawFins = false; }, true));
+  configs.push_back(Changed(
+      "no-fins", "without fins", [](RenderSettings* s) { s->drawFins = false; }, true));
   configs.push_back(Changed("no-back", "without back faces", [](RenderSettings* s) { s->backFaces = false; }));
   configs.push_back(Changed("no-sort", "animals unsorted", [](RenderSettings* s) { s->sortAnimals = false; }));
-  configs.push_back(Changed("fins-gs", "fins by a geometry shader", [](RenderSettings* s) { s->finMode = FinMode::Geometry; }));
+  configs.push_back(
+      Changed("fins-gs", "fins by a geometry shader", [](RenderSettings* s) { s->finMode = FinMode::Geometry; }));
   configs.push_back(Changed("fins-pulled", "fins pulled", [](RenderSettings* s) { s->finMode = FinMode::Pulled; }));
-  configs.push_back(Changed("draws", "a draw for each shell", [](RenderSettings* s) { s->shellMode = ShellMode::Draws; }));
-  configs.push_back(Changed("gs", "shells by a geometry shader", [](RenderSettings* s) { s->shellMode = ShellMode::Amplified; }));
+  configs.push_back(
+      Changed("draws", "a draw for each shell", [](RenderSettings* s) { s->shellMode = ShellMode::Draws; }));
+  configs.push_back(
+      Changed("gs", "shells by a geometry shader", [](RenderSettings* s) { s->shellMode = ShellMode::Amplified; }));
   configs.push_back(Changed("sheet", "as sheets", [](RenderSettings* s) { s->semantics = Semantics::Sheet; }));
   configs.push_back(Changed("msaa4", "4 samples a pixel", [](RenderSettings* s) { s->samples = 4; }));
-  configs.push_back(Changed("unorm8", "blended in 8 bits", [](RenderSettings* s) { s->target = TargetFormat::Unorm8; }));
-  configs.push_back(Changed("float32", "blended in 32-bit floats", [](RenderSettings* s) { s->target = TargetFormat::Float32; }));
+  configs.push_back(
+      Changed("unorm8", "blended in 8 bits", [](RenderSettings* s) { s->target = TargetFormat::Unorm8; }));
+  configs.push_back(
+      Changed("float32", "blended in 32-bit floats", [](RenderSettings* s) { s->target = TargetFormat::Float32; }));
   return configs;
 }
 

@@ -11,7 +11,9 @@ namespace {
 std::vector<std::string> Arguments(const Folder& folder, const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments{"reference"};
   for (const std::pair<std::string, std::string>& usual : {std::pair<std::string, std::string>{"-o", folder / "x.png"},
-                                                           {"--cache", folder / "cache"}, {"--size", "96x60"}, {"--spp", "2"}})
+                                                           {"--cache", folder / "cache"},
+                                                           {"--size", "96x60"},
+                                                           {"--spp", "2"}})
     if (std::find(more.begin(), more.end(), usual.first) == more.end())
       arguments.insert(arguments.end(), {usual.first, usual.second});
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -20,7 +22,8 @@ std::vector<std::string> Arguments(const Folder& folder, const std::vector<std::
 
 // What fur compare makes of two files of the folder.
 nlohmann::json Compared(const Folder& folder, const std::string& a, const std::string& b) {
-  const Outcome o = RunFur({"compare", folder / a, folder / b, "--json", "--mask", folder / "mask.png", "--band", folder / "band.png"});
+  const Outcome o = RunFur(
+      {"compare", folder / a, folder / b, "--json", "--mask", folder / "mask.png", "--band", folder / "band.png"});
   ExpectSuccess(o);
   return nlohmann::json::parse(o.out, nullptr, false);
 }
@@ -45,8 +48,9 @@ TEST(ReferenceCommand, DrawsAndKeepsThePicture) {
 TEST(ReferenceCommand, TwoSeedsAgreeAndCompareGetsItsRegions) {
   const Folder folder;
   for (const char* seed : {"1", "7"})
-    ExpectSuccess(RunFur(Arguments(folder, {"-o", folder / (std::string(seed) + ".exr"), "--seed", seed, "--size", "160x100", "--spp", "16",
-                                            "--no-cache", "--mask", folder / "mask.png", "--band", folder / "band.png"})));
+    ExpectSuccess(RunFur(
+        Arguments(folder, {"-o", folder / (std::string(seed) + ".exr"), "--seed", seed, "--size", "160x100", "--spp",
+                           "16", "--no-cache", "--mask", folder / "mask.png", "--band", folder / "band.png"})));
   const nlohmann::json j = Compared(folder, "1.exr", "7.exr");
   EXPECT_LT(j["flip"]["mask_mean"].get<double>(), 0.03);
   EXPECT_GT(j["flip"]["mask_mean"].get<double>(), 0.0001) << "not the same samples";
@@ -64,7 +68,8 @@ TEST(ReferenceCommand, RegionsAreTheSameInBothFormats) {
   ExpectSuccess(RunFur(Arguments(folder, {"--mask", folder / "m.png", "--band", folder / "b.png"})));
   ExpectSuccess(RunFur(Arguments(folder, {"--mask", folder / "m.exr", "--band", folder / "b.exr"})));
   for (const std::string name : {"m", "b"}) {
-    const fur::Result<fur::Plane> bytes = fur::ReadOpacity(folder / (name + ".png")), floats = fur::ReadOpacity(folder / (name + ".exr"));
+    const fur::Result<fur::Plane> bytes = fur::ReadOpacity(folder / (name + ".png")),
+                                  floats = fur::ReadOpacity(folder / (name + ".exr"));
     ASSERT_TRUE(bytes && floats);
     for (size_t i = 0; i < floats->values.size(); ++i) {
       EXPECT_EQ(bytes->values[i] > 1 / 255.0f, floats->values[i] > 1 / 255.0f) << i;
@@ -83,14 +88,17 @@ TEST(ReferenceCommand, ACropIsAPartOfThePicture) {
   ASSERT_EQ(part.height, 16u);
   for (uint32_t y = 0; y < 16; ++y)
     EXPECT_TRUE(std::equal(&part.pixels[size_t{y} * 24 * 4], &part.pixels[size_t{y} * 24 * 4] + 24 * 4,
-                           &whole.pixels[(size_t{y + 20} * 96 + 30) * 4])) << y;
+                           &whole.pixels[(size_t{y + 20} * 96 + 30) * 4]))
+        << y;
 }
 
 // What render makes of the same flags with many shells is close, and far from the plain coat.
 TEST(ReferenceCommand, HonoursTheGroom) {
   const Folder folder;
-  const std::vector<std::string> groom{"--wind-strength", "2", "--time", "1.3", "--gravity", "0.5", "--density", "0.6",
-                                       "--tip-color", "1.5,0.5,0.3", "--color-from-base", "0.5", "--thickness", "1.3"};
+  const std::vector<std::string> groom{
+      "--wind-strength", "2",   "--time",      "1.3",         "--gravity",         "0.5",
+      "--density",       "0.6", "--tip-color", "1.5,0.5,0.3", "--color-from-base", "0.5",
+      "--thickness",     "1.3"};
   const auto with = [&](std::vector<std::string> flags) {
     flags.insert(flags.end(), groom.begin(), groom.end());
     return flags;
@@ -101,7 +109,8 @@ TEST(ReferenceCommand, HonoursTheGroom) {
   groomed.insert(groomed.end(), {"-o", folder / "groomed.exr"});
   ExpectSuccess(RunFur(Arguments(folder, plain)));
   ExpectSuccess(RunFur(Arguments(folder, groomed)));
-  ExpectSuccess(RunFur(with({"render", "-o", folder / "shells.exr", "--size", "96x60", "--shells", "256", "--no-fins"})));
+  ExpectSuccess(
+      RunFur(with({"render", "-o", folder / "shells.exr", "--size", "96x60", "--shells", "256", "--no-fins"})));
   const double near = Compared(folder, "groomed.exr", "shells.exr")["mask"]["rmse"],
                far = Compared(folder, "groomed.exr", "plain.exr")["mask"]["rmse"];
   EXPECT_LT(near * 2, far) << near;
@@ -109,9 +118,16 @@ TEST(ReferenceCommand, HonoursTheGroom) {
 
 TEST(ReferenceCommand, RefusesInWords) {
   const Folder folder;
-  for (const std::vector<std::string>& flags : std::vector<std::vector<std::string>>{
-           {"--crop", "90,0,10,10"}, {"--crop", "1,2,3"}, {"--crop", "-1,0,5,5"}, {"--spp", "0"}, {"--tolerance", "nan"},
-           {"--threads", "-1"}, {"--mask", "m.jpg"}, {"--band", "b.bmp"}, {"--size", "0x3"}, {"--look", "nice"}})
+  for (const std::vector<std::string>& flags : std::vector<std::vector<std::string>>{{"--crop", "90,0,10,10"},
+                                                                                     {"--crop", "1,2,3"},
+                                                                                     {"--crop", "-1,0,5,5"},
+                                                                                     {"--spp", "0"},
+                                                                                     {"--tolerance", "nan"},
+                                                                                     {"--threads", "-1"},
+                                                                                     {"--mask", "m.jpg"},
+                                                                                     {"--band", "b.bmp"},
+                                                                                     {"--size", "0x3"},
+                                                                                     {"--look", "nice"}})
     ExpectFailure(RunFur(Arguments(folder, flags)), kUsage, {flags[0]});
   ExpectFailure(RunFur({"reference", "-o", folder / "x.bmp"}), kUsage, {".png"});
   ExpectFailure(RunFur(Arguments(folder, {"--mask", folder / "x.png"})), kUsage, {"twice"});

@@ -1,11 +1,11 @@
 // fur/bench.h: the plan's rules, and the statistics against closed forms.
+#include "fur/bench.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 #include <set>
-
-#include "fur/bench.h"
 
 namespace fur::test {
 namespace {
@@ -15,7 +15,8 @@ TEST(BenchPlan, TheSeedIsTheBaseline) {
   const RenderSettings& seed = configs.at(0).settings;
   EXPECT_EQ(configs[0].name, "seed");
   EXPECT_TRUE(seed.technique == Technique::Seed && seed.look == Look::Seed && seed.semantics == Semantics::Sheet);
-  EXPECT_TRUE(seed.drawFins && seed.drawShells && seed.preset == Preset::DemoFur && seed.shells == 0 && seed.samples == 1);
+  EXPECT_TRUE(seed.drawFins && seed.drawShells && seed.preset == Preset::DemoFur && seed.shells == 0 &&
+              seed.samples == 1);
   EXPECT_TRUE(configs[0].quick) << "in every run";
 }
 
@@ -45,7 +46,9 @@ TEST(BenchPlan, HasEverySceneOfTheTask) {
   for (const BenchScene& s : BenchScenes()) {
     names.insert(s.name);
     quickWithoutFiles |= s.quick && s.file.empty();
-    EXPECT_EQ(s.animals, s.name.find("-100") != std::string::npos ? 100u : s.name.find("-25") != std::string::npos ? 25u : 1u);
+    EXPECT_EQ(s.animals, s.name.find("-100") != std::string::npos  ? 100u
+                         : s.name.find("-25") != std::string::npos ? 25u
+                                                                   : 1u);
     EXPECT_EQ(s.distance < 1, s.name.find("near") != std::string::npos);
     EXPECT_EQ(s.angles > 1, s.name.find("turntable") != std::string::npos);
     EXPECT_TRUE(s.crop[0] + s.crop[2] <= 1 && s.crop[1] + s.crop[3] <= 1);
@@ -93,7 +96,8 @@ TEST(BenchStatistics, WhatSlowsARoundCancels) {
   EXPECT_DOUBLE_EQ(r.high, 0.75);
 }
 
-// k of the table of the sign test (Conover, "Practical Nonparametric Statistics", A3 and 3.2): 1 - 2 sum_{i<k} C(n,i)/2^n.
+// k of the table of the sign test (Conover, "Practical Nonparametric Statistics", A3 and 3.2): 1 - 2 sum_{i<k}
+// C(n,i)/2^n.
 TEST(BenchStatistics, TheIntervalIsOfOrderStatistics) {
   const auto interval = [](int n, double wanted) {
     std::vector<double> a, b(size_t(n), 1.0);

@@ -13,13 +13,13 @@ namespace fur {
 
 // What is seen.
 struct BenchScene {
-  std::string name;                    // "cat-25-near-turntable"
-  std::string file;                    // below the folder of assets; empty: the built-in animal
+  std::string name;  // "cat-25-near-turntable"
+  std::string file;  // below the folder of assets; empty: the built-in animal
   uint32_t animals = 1;
-  double distance = 1;                 // of the eye from the target, in that of the framing camera
-  uint32_t angles = 1;                 // cameras about the up axis, evenly spaced, that are scored; 1: still
+  double distance = 1;                     // of the eye from the target, in that of the framing camera
+  uint32_t angles = 1;                     // cameras about the up axis, evenly spaced, that are scored; 1: still
   std::array<double, 4> crop{0, 0, 1, 1};  // left, top, width, height of the part that is scored, of the picture's
-  bool quick = false;                  // in `--quick` too
+  bool quick = false;                      // in `--quick` too
 };
 
 // How it is drawn. Size, background and light are the run's.
@@ -47,10 +47,10 @@ struct BenchSummary {
 };
 BenchSummary Summarise(std::vector<double> values);
 
-// The median of a[i] / b[i], pairs of one round each, so that what slows a whole round cancels; and the interval of order
-// statistics that holds the true median with at least the wanted probability whatever the distribution is: x(k) .. x(n+1-k)
-// does with 1 - 2 P(Binomial(n, 1/2) < k) (David and Nagaraja, "Order Statistics", 7.1). With too few pairs for it: least
-// and largest, and what probability those have.
+// The median of a[i] / b[i], pairs of one round each, so that what slows a whole round cancels; and the interval of
+// order statistics that holds the true median with at least the wanted probability whatever the distribution is: x(k)
+// .. x(n+1-k) does with 1 - 2 P(Binomial(n, 1/2) < k) (David and Nagaraja, "Order Statistics", 7.1). With too few pairs
+// for it: least and largest, and what probability those have.
 struct BenchRatio {
   double median = 0, low = 0, high = 0, coverage = 0;
 };
