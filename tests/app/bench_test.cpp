@@ -91,6 +91,14 @@ TEST(BenchCommand, JsonHoldsEverything) {
     EXPECT_EQ(r["ratio"]["low"], 1.0);
     EXPECT_EQ(r["ratio"]["high"], 1.0);
   }
+  const auto rounds = [&](size_t i) { return scene["results"][i]["frame_ms"]["rounds"].get<std::vector<double>>(); };
+  for (const size_t seed : {0u, 3u})
+    for (size_t i = seed; i < seed + 3; ++i) {
+      std::vector<double> ratios;
+      for (size_t k = 0; k < 3; ++k) ratios.push_back(rounds(i)[k] / rounds(seed)[k]);
+      std::sort(ratios.begin(), ratios.end());
+      EXPECT_DOUBLE_EQ(scene["results"][i]["ratio"]["median"].get<double>(), ratios[1]) << "paired by rounds";
+    }
   // Both backends draw the same picture, so they have the same error.
   for (size_t i = 0; i < 3; ++i)
     EXPECT_EQ(scene["results"][i]["error"], scene["results"][i + 3]["error"]) << scene["results"][i]["config"];
