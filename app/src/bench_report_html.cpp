@@ -35,7 +35,7 @@ svg .title{font-weight:600;font-size:13px}
 .s0{fill:var(--s0);stroke:var(--s0)}.s1{fill:var(--s1);stroke:var(--s1)}
 .s2{fill:var(--s2);stroke:var(--s2)}.s3{fill:var(--s3);stroke:var(--s3)}
 .hollow{fill:var(--paper)}.ring,.front{fill:none}
-.gallery{display:grid;grid-template-columns:repeat(auto-fill,minmax(300px,1fr));gap:14px;margin:12px 0}
+.gallery{display:grid;align-items:start;grid-template-columns:repeat(auto-fill,minmax(300px,1fr));gap:14px;margin:12px 0}
 figure{margin:0;background:var(--band);padding:8px;border-radius:6px}figure div{display:flex;gap:6px}
 figure img{width:calc(50% - 3px);height:auto;display:block}figure.one img{width:100%}
 figcaption{font-size:13px;margin-top:5px;color:var(--soft)}figcaption b{color:var(--ink)}
