@@ -22,6 +22,16 @@ std::vector<const BackendEntry*> SelectBackends(const std::string& flag) {
   return selected;
 }
 
+fur::Result<rhi::Ref<rhi::IDevice>> MakeDevice(const BackendEntry& backend, const std::string& adapter, bool validate,
+                                               MessageCollector* messages) {
+  rhi::Ref<rhi::IDevice> device;
+  const rhi::DeviceDesc desc{.apiValidation = validate, .syncValidation = validate, .adapter = adapter.c_str(), .sink = messages};
+  const rhi::Status status = backend.createDevice(desc, &device);
+  if (status == rhi::Status::Ok) return device;
+  const std::string why = messages->Lines().empty() ? rhi::ToString(status) : messages->Last();
+  return fur::Error{fur::ErrorCode::NoDevice, fmt::format("no {} device: {}", backend.name, why)};
+}
+
 void MessageCollector::OnMessage(const rhi::Message& m) {
   if (m.severity == rhi::Severity::Info) return;
   const std::string object = *m.object ? fmt::format(" [{}]", m.object) : "";

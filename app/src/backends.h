@@ -30,4 +30,8 @@ class MessageCollector final : public rhi::IMessageSink {
   std::vector<std::string> lines_;
 };
 
+// NoDevice says what the driver said.
+fur::Result<rhi::Ref<rhi::IDevice>> MakeDevice(const BackendEntry&, const std::string& adapter, bool validate,
+                                               MessageCollector* messages);
+
 }  // namespace app

@@ -1,6 +1,5 @@
 // fur bake: grows a coat and writes it as a folder of pictures.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +9,7 @@
 #include "commands.h"
 #include "fur/bake_files.h"
 #include "fur/coat_file.h"
+#include "progress_bar.h"
 
 namespace app {
 namespace {
@@ -58,30 +58,6 @@ Result<fur::CoatParams> MakeParams(const BakeFlags& f) {
   return params;
 }
 
-// One line that is written over; nothing remains of it.
-class ProgressBar {
- public:
-  explicit ProgressBar(bool shown) : shown_(shown) {}
-  ~ProgressBar() {
-    if (shown_) fmt::print(stderr, "\r{:{}}\r", "", kWidth + 24);
-  }
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-  void Show(const char* what, double share) {
-    const int percent = static_cast<int>(share * 100);
-    if (!shown_ || percent == last_) return;
-    last_ = percent;
-    const int filled = percent * kWidth / 100;
-    fmt::print(stderr, "\r{:<8} [{:=<{}}{:{}}] {:3} %", what, "", filled, "", kWidth - filled, percent);
-    std::fflush(stderr);
-  }
-
- private:
-  static constexpr int kWidth = 40;
-  bool shown_;
-  int last_ = -1;
-};
-
 void PrintSummary(const BakeFlags& f, const fur::BakedCoat& coat, double seconds) {
   size_t over = 0;
   for (const fur::Strand& strand : coat.strands) over += strand.kind == fur::StrandKind::Over;
@@ -98,7 +74,7 @@ Result<Done> RunBake(const BakeFlags& f) {
   if (Result<Done> ok = fur::CheckCoatOutput(output); !ok) return ok;
   fur::BakedCoat coat;
   {
-    ProgressBar bar(f.progress || isatty(STDERR_FILENO) != 0);
+    ProgressBar bar(f.progress);
     coat = fur::Bake(*params, f.threads, [&](double share) { bar.Show("baking", share * 0.6); });
     const auto writing = [&](double share) { bar.Show("writing", 0.6 + share * 0.4); };
     if (Result<Done> written = fur::WriteCoat(output, coat, writing); !written) return written;

@@ -12,7 +12,9 @@ namespace app {
 using Command = std::function<int()>;
 
 void AddRenderCommand(CLI::App& app, Command* run);
+void AddReferenceCommand(CLI::App& app, Command* run);
 void AddCompareCommand(CLI::App& app, Command* run);
+void AddBenchCommand(CLI::App& app, Command* run);
 void AddBakeCommand(CLI::App& app, Command* run);
 void AddInfoCommand(CLI::App& app, Command* run);
 

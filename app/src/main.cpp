@@ -32,7 +32,9 @@ int Main(int argc, char** argv) {
       "5 output cannot be written, 6 no usable driver, 7 rendering failed, 8 a limit of compare is exceeded.");
   Command run;
   AddRenderCommand(app, &run);
+  AddReferenceCommand(app, &run);
   AddCompareCommand(app, &run);
+  AddBenchCommand(app, &run);
   AddBakeCommand(app, &run);
   AddInfoCommand(app, &run);
   try {

@@ -10,30 +10,9 @@
 namespace app {
 namespace {
 
-constexpr double kTurnDegrees = 0.5;
-
-double Milliseconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double, std::milli>(d).count(); }
-
-fur::Result<double> TimeFrame(fur::Renderer& renderer, const fur::Camera& camera, const RenderJob& job) {
-  const auto start = std::chrono::steady_clock::now();
-  renderer.Draw(camera, job.placements);
-  if (fur::Result<fur::Done> done = renderer.Finish(); !done) return done.error();
-  return Milliseconds(std::chrono::steady_clock::now() - start);
-}
-
-fur::Result<rhi::Ref<rhi::IDevice>> MakeDevice(const BackendEntry& backend, const RenderJob& job, MessageCollector* messages) {
-  rhi::Ref<rhi::IDevice> device;
-  const rhi::DeviceDesc desc{.apiValidation = job.validate, .syncValidation = job.validate, .adapter = job.adapter.c_str(),
-                             .sink = messages};
-  const rhi::Status status = backend.createDevice(desc, &device);
-  if (status == rhi::Status::Ok) return device;
-  const std::string why = messages->Lines().empty() ? rhi::ToString(status) : messages->Last();
-  return fur::Error{fur::ErrorCode::NoDevice, fmt::format("no {} device: {}", backend.name, why)};
-}
-
 fur::Result<fur::Done> TimeFrames(fur::Renderer& renderer, const RenderJob& job, RenderOutcome* out) {
   for (uint32_t i = 1; i <= job.repeat; ++i) {
-    fur::Result<double> ms = TimeFrame(renderer, fur::TurnCamera(job.camera, kTurnDegrees * i), job);
+    fur::Result<double> ms = TimeFrame(renderer, fur::TurnCamera(job.camera, kTurnDegrees * i), job.placements);
     if (!ms) return ms.error();
     out->frameMs.push_back(*ms);
   }
@@ -52,7 +31,7 @@ fur::Result<RenderOutcome> RunOnDevice(rhi::IDevice& device, const fur::Model& m
   fur::Result<std::unique_ptr<fur::Renderer>> renderer = fur::MakeRenderer(device, model, job.settings);
   if (!renderer) return renderer.error();
   device.GetStats(true);
-  fur::Result<double> first = TimeFrame(**renderer, job.camera, job);
+  fur::Result<double> first = TimeFrame(**renderer, job.camera, job.placements);
   if (!first) return first.error();
   out.firstFrameMs = *first;
   out.rhiStats = device.GetStats(true);
@@ -73,11 +52,18 @@ fur::Result<RenderOutcome> RunOnDevice(rhi::IDevice& device, const fur::Model& m
 
 }  // namespace
 
+fur::Result<double> TimeFrame(fur::Renderer& renderer, const fur::Camera& camera, std::span<const glm::dmat4> placements) {
+  const auto start = std::chrono::steady_clock::now();
+  renderer.Draw(camera, placements);
+  if (fur::Result<fur::Done> done = renderer.Finish(); !done) return done.error();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 fur::Result<RenderOutcome> RunRenderJob(const BackendEntry& backend, const fur::Model& model, const RenderJob& job) {
   MessageCollector messages;
   fur::Result<RenderOutcome> out = RenderOutcome{};
   {
-    fur::Result<rhi::Ref<rhi::IDevice>> device = MakeDevice(backend, job, &messages);
+    fur::Result<rhi::Ref<rhi::IDevice>> device = MakeDevice(backend, job.adapter, job.validate, &messages);
     if (!device) return device.error();
     out = RunOnDevice(**device, model, job);
   }  // the device dies here: leaks that its validation reports are among the messages
@@ -85,13 +71,6 @@ fur::Result<RenderOutcome> RunRenderJob(const BackendEntry& backend, const fur::
   out->backend = backend.name;
   out->messages = messages.Lines();
   return out;
-}
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const size_t n = values.size();
-  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
 ImageDifference CompareImages(const fur::Image& a, const fur::Image& b) {

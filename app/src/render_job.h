@@ -1,6 +1,7 @@
 // One rendering of a scene on one backend, timed.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "fur/renderer.h"
 
 namespace app {
+
+inline constexpr double kTurnDegrees = 0.5;  // of the camera, from one timed frame to the next
 
 struct RenderJob {
   fur::RenderSettings settings;
@@ -33,7 +36,8 @@ struct RenderOutcome {
 
 fur::Result<RenderOutcome> RunRenderJob(const BackendEntry& backend, const fur::Model& model, const RenderJob& job);
 
-double Median(std::vector<double> values);  // 0 for none
+// From the first call to the finished GPU.
+fur::Result<double> TimeFrame(fur::Renderer& renderer, const fur::Camera& camera, std::span<const glm::dmat4> placements);
 
 // How far two pictures of one size are apart.
 struct ImageDifference {

@@ -1,5 +1,7 @@
 #include "stats.h"
 
+#include "fur/bench.h"
+
 namespace app {
 
 const char* ToString(fur::Technique technique) { return technique == fur::Technique::Seed ? "seed" : "shells"; }
@@ -31,7 +33,7 @@ nlohmann::ordered_json StatsJson(const RenderOutcome& out, const RenderJob& job)
   j["animals"] = job.placements.size();
   j["first_frame_ms"] = out.firstFrameMs;
   j["frame_ms"] = out.frameMs;
-  j["frame_ms_median"] = Median(out.frameMs);
+  j["frame_ms_median"] = fur::Median(out.frameMs);
   j["draws"] = c.draws;
   j["triangles_submitted"] = c.triangles;
   j["edges_submitted"] = c.edges;

@@ -77,21 +77,26 @@ Result<Image> ReadImage(const std::filesystem::path& file) {
   return ReadImageFromMemory(*bytes, file.filename().string(), file.string());
 }
 
-Result<Done> WritePng(const std::filesystem::path& file, uint32_t width, uint32_t height,
-                      std::span<const uint8_t> rgba) {
+Result<std::vector<uint8_t>> EncodePng(uint32_t width, uint32_t height, std::span<const uint8_t> rgba) {
   if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide)
-    return Error{ErrorCode::Usage, file.string() + ": cannot write an image of " + std::to_string(width) + " x " +
-                                       std::to_string(height) + " pixels; 1 to " + std::to_string(kMaxImageSide) +
-                                       " a side"};
+    return Error{ErrorCode::Usage, "cannot write an image of " + std::to_string(width) + " x " + std::to_string(height) +
+                                       " pixels; 1 to " + std::to_string(kMaxImageSide) + " a side"};
   if (rgba.size() != size_t{4} * width * height)
-    return Error{ErrorCode::Usage, file.string() + ": has " + std::to_string(rgba.size()) + " bytes for " +
-                                       std::to_string(width) + " x " + std::to_string(height) + " RGBA pixels"};
+    return Error{ErrorCode::Usage, "has " + std::to_string(rgba.size()) + " bytes for " + std::to_string(width) + " x " +
+                                       std::to_string(height) + " RGBA pixels"};
   std::vector<uint8_t> png;
   const int stride = static_cast<int>(width * 4);
   if (!stbi_write_png_to_func(AppendBytes, &png, static_cast<int>(width), static_cast<int>(height), 4, rgba.data(),
                               stride))
-    return Error{ErrorCode::OutputFailed, file.string() + ": the PNG could not be encoded (out of memory)"};
-  return WriteFile(file, png);
+    return Error{ErrorCode::OutputFailed, "the PNG could not be encoded (out of memory)"};
+  return png;
+}
+
+Result<Done> WritePng(const std::filesystem::path& file, uint32_t width, uint32_t height,
+                      std::span<const uint8_t> rgba) {
+  const Result<std::vector<uint8_t>> png = EncodePng(width, height, rgba);
+  if (!png) return Error{png.error().code, file.string() + ": " + png.error().message};
+  return WriteFile(file, *png);
 }
 
 }  // namespace fur

@@ -7,7 +7,7 @@ namespace {
 TEST(Help, NamesTheCommands) {
   const Outcome o = RunFur({"--help"});
   ExpectSuccess(o);
-  for (const char* word : {"render", "bake", "compare", "info", "--version", "Exit codes"})
+  for (const char* word : {"render", "reference", "bench", "bake", "compare", "info", "--version", "Exit codes"})
     EXPECT_NE(o.out.find(word), std::string::npos) << word << " is not in:\n" << o.out;
 }
 
@@ -17,7 +17,8 @@ TEST(Help, RenderNamesEveryFlag) {
   for (const char* flag :
        {"-o",          "--output", "--backend",  "--size",    "--samples",   "--technique", "--look",
         "--semantics", "--shells", "--eye",      "--target",  "--fov",       "--count",     "--repeat",
-        "--stats",     "--fur",    "--groom", "--wetness", "--time", "--validate", "--preset", "--coat", "--dead-zone", "--no-fins", "--no-shells", "MODEL"})
+        "--stats",     "--fur",    "--groom",    "--wetness", "--time",      "--validate",  "--preset",
+        "--coat",      "--dead-zone", "--no-fins", "--no-shells", "MODEL"})
     EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
 }
 
@@ -27,6 +28,22 @@ TEST(Help, CompareNamesEveryFlag) {
   for (const char* flag : {"--json", "--heat", "--heat-scale", "--mask", "--band", "--ppd", "--max-flip",
                            "--max-mask-flip", "--max-rmse", "--max-difference", "--min-ssim", "--min-psnr",
                            "--max-differing-share"})
+    EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
+}
+
+TEST(Help, ReferenceNamesEveryFlag) {
+  const Outcome o = RunFur({"reference", "--help"});
+  ExpectSuccess(o);
+  for (const char* flag : {"--output", "--mask", "--band", "--spp", "--seed", "--threads", "--tolerance", "--crop",
+                           "--cache", "--no-cache", "--size", "--look", "--groom", "--time", "MODEL"})
+    EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
+}
+
+TEST(Help, BenchNamesEveryFlag) {
+  const Outcome o = RunFur({"bench", "--help"});
+  ExpectSuccess(o);
+  for (const char* flag : {"--quick", "--list", "--scenes", "--configs", "--techniques", "--backend", "--size", "--rounds",
+                           "--spp", "--json", "--html", "--agree", "--assets", "--cache", "--no-cache"})
     EXPECT_NE(o.out.find(flag), std::string::npos) << flag << " is not in:\n" << o.out;
 }
 

@@ -15,6 +15,11 @@ struct FloatImage {
 
 // Decodes sRGB-encoded rgb (IEC 61966-2-1), also beyond 1; alpha stays.
 void DecodeSrgb(FloatImage* image);
+// The other way, of values clamped to 0..1.
+void EncodeSrgb(FloatImage* image);
+
+// RGBA8 of rgb clamped to 0..1 and rounded, as it is; alpha 255.
+std::vector<uint8_t> ToBytes(const FloatImage& image);
 
 // One number for each pixel; row 0 on top.
 struct Plane {

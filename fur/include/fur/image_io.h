@@ -23,6 +23,9 @@ Result<Image> ReadImage(const std::filesystem::path& file);
 // The same from the bytes of a file. `name` becomes Image::name, `where` starts the message of an error.
 Result<Image> ReadImageFromMemory(std::span<const uint8_t> bytes, const std::string& name, const std::string& where);
 
+// A PNG of RGBA8, row 0 on top; rgba.size() must be width * height * 4. Errors: Usage (sizes), OutputFailed.
+Result<std::vector<uint8_t>> EncodePng(uint32_t width, uint32_t height, std::span<const uint8_t> rgba);
+
 // Writes RGBA8, row 0 on top; rgba.size() must be width * height * 4. The file appears whole or not at all: it is
 // written beside the target under another name and renamed. Errors: Usage (sizes), OutputFailed.
 Result<Done> WritePng(const std::filesystem::path& file, uint32_t width, uint32_t height,

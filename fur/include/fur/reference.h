@@ -20,8 +20,9 @@ struct ReferenceSettings {
   Semantics semantics = Semantics::Volume;
   glm::dvec3 background{0};
   Light light;
-  glm::dvec3 comb{0};  // RenderSettings
-  double bend = 2;
+  std::optional<glm::dvec3> comb;  // RenderSettings, these three
+  std::optional<double> bend;
+  double time = 0;
   uint32_t samplesPerPixel = 64;  // stratified in a grid, rounded up to a full one
   uint64_t seed = 0;              // of the jitter within the strata
   uint32_t threads = 0;           // 0: one for each core. The picture does not depend on it
@@ -39,8 +40,13 @@ struct ReferenceImage {
   std::vector<uint8_t> skin;      // 1 where the ray through the pixel's centre meets skin: its complement in the mask is the band
 };
 
+// What fur/compare.h takes as mask and band: the fur's opacity, and the same where it has no skin behind it, else 0.
+Plane MaskOf(const ReferenceImage&);
+Plane BandOf(const ReferenceImage&);
+
 // Skin is seen as the renderer draws it: back faces are culled unless the material is double-sided, between the camera's
-// near and far plane. Fur has no back: each crossing counts. Usage for a crop outside the picture or no samples.
+// near and far plane. Fur has no back: each crossing counts. The groom is that of technique shells (docs/fur.md) without
+// clumps: Usage, in words, for a coat that clumps or is wet. Usage for a crop outside the picture or no samples too.
 Result<ReferenceImage> RenderReference(const Model&, const Camera&, std::span<const glm::dmat4> placements,
                                        const ReferenceSettings&);
 

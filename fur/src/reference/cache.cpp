@@ -68,8 +68,11 @@ void AddMaterial(const Material& m, Hash* hash) {
   hash->Add(furred);
   if (!furred) return;
   const FurParams& p = m.fur->params;
-  for (const double v : {p.length, p.layerUvScale, p.selfShadow, p.specularPower, p.specularScale, p.heightFalloff, p.tint})
+  for (const double v : {p.length, p.layerUvScale, p.selfShadow, p.specularPower, p.specularScale, p.heightFalloff, p.density,
+                         p.thickness, p.combStrength, p.bend, p.gravity, p.colorFromBase, p.windStrength,
+                         p.windFrequency, p.windLength, p.clumping, p.wetness, p.tint})
     hash->Add(v);
+  for (const glm::dvec3& v : {p.comb, p.rootColor, p.tipColor, p.wind}) hash->Add(v);
   for (const int32_t v : {m.fur->volume, m.fur->lengthMap, m.fur->directionMap}) hash->Add(v);
 }
 
@@ -107,10 +110,12 @@ void AddSettings(const ReferenceSettings& s, Hash* hash) {
   for (const uint32_t v : {s.width, s.height, s.cropX, s.cropY, s.cropWidth, s.cropHeight, s.samplesPerPixel,
                            uint32_t(s.look), uint32_t(s.semantics)})
     hash->Add(v);
-  for (const glm::dvec3& v : {s.background, s.light.direction, s.light.diffuse, s.light.ambient, s.light.specular, s.comb,
-                              s.furnace.value_or(glm::dvec3(-1))})
+  for (const glm::dvec3& v : {s.background, s.light.direction, s.light.diffuse, s.light.ambient, s.light.specular,
+                              s.comb.value_or(glm::dvec3(0)), s.furnace.value_or(glm::dvec3(-1))})
     hash->Add(v);
-  hash->Add(s.bend);
+  for (const bool given : {s.comb.has_value(), s.bend.has_value()}) hash->Add(given);
+  hash->Add(s.bend.value_or(0));
+  hash->Add(s.time);
   hash->Add(s.seed);
   hash->Add(s.tolerance);
 }

@@ -72,6 +72,17 @@ Result<Crop> CropOf(const ReferenceSettings& s) {
   return c;
 }
 
+Result<Done> CheckGroom(const Model& model) {
+  for (const Material& m : model.materials) {
+    if (!m.fur || !m.fur->params.enabled) continue;
+    for (const auto& [key, value] : {std::pair{"clumping", m.fur->params.clumping}, {"wetness", m.fur->params.wetness}})
+      if (value > 0)
+        return Error{ErrorCode::Usage, "the reference knows no clumps: set " + std::string(key) + " of material '" + m.name +
+                                           "' to 0"};
+  }
+  return Done{};
+}
+
 class Picture {
  public:
   Picture(const FurScene& scene, const Culler& culler, const Camera& camera, const ReferenceSettings& s, Crop crop)
@@ -149,11 +160,21 @@ class Picture {
 
 }  // namespace
 
+Plane MaskOf(const ReferenceImage& image) { return {image.color.width, image.color.height, image.furOpacity}; }
+
+Plane BandOf(const ReferenceImage& image) {
+  Plane band = MaskOf(image);
+  for (size_t i = 0; i < band.values.size(); ++i)
+    if (image.skin[i]) band.values[i] = 0;
+  return band;
+}
+
 Result<ReferenceImage> RenderReference(const Model& model, const Camera& camera, std::span<const glm::dmat4> placements,
                                        const ReferenceSettings& settings) {
   if (Result<Done> ok = CheckModel(model); !ok) return ok.error();
   const Result<Crop> crop = CropOf(settings);
   if (!crop) return crop.error();
+  if (const Result<Done> known = CheckGroom(model); !known) return known.error();
   const FurScene scene(model, placements, settings);
   const Result<std::unique_ptr<Culler>> culler = reference::MakeEmbreeCuller(scene);
   if (!culler) return culler.error();

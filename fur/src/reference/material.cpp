@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fur/groom.h"
 #include "mips.h"
 
 namespace fur::reference {
@@ -59,7 +60,8 @@ Lighting::Lighting(const ReferenceSettings& s)
     : look(s.look), light(s.light), travel(UnitOr(s.light.direction, {0, -1, 0})) {}
 
 Coat::Coat(const Model& model, const Material& m, Look look)
-    : volume_(model.volumes[size_t(m.fur->volume)]),
+    : volume_(m.fur->params.thickness == 1 ? model.volumes[size_t(m.fur->volume)]
+                                           : Thickened(model.volumes[size_t(m.fur->volume)], m.fur->params.thickness)),
       params_(m.fur->params),
       falloff_(look == Look::Seed ? 1 : m.fur->params.heightFalloff),  // the demo's shells, whatever the volume holds
       color_(ColorTexture(model, m, look)),
@@ -97,7 +99,7 @@ double Coat::Density(const glm::dvec2& uv, const glm::dvec2& tiles, double h, do
   const double filtered = (low * (1 - v.fraction) + high * v.fraction) / 255;
   const double a = std::min(filtered * (1 - falloff_ * z / n), kMostCoverage);
   if (!(a > 0) || (hasLengthMap_ && h * length > length_.Red(uv))) return 0;
-  return -double(n) * std::log(1 - a);
+  return -double(n) * params_.density * std::log(1 - a);
 }
 
 glm::dvec3 Coat::Filtered(const std::vector<uint8_t>& pixels, const glm::dvec2& tiles, double h) const {
@@ -122,10 +124,19 @@ glm::dvec3 Coat::Own(const glm::dvec2& tiles, double h) const {
   return 1.0 + (Filtered(volume_.tint, tiles, h) * (255.0 / 128) - 1.0) * params_.tint;
 }
 
+// docs/fur.md, "Colour".
+glm::dvec3 Coat::Albedo(Look look, const glm::dvec2& uv, const glm::dvec2& tiles, double h) const {
+  glm::dvec3 albedo = color_.Rgb(uv) * factor_;
+  const bool groomed = IsGroomed(params_), own = look == Look::Correct && !volume_.tint.empty();
+  if (groomed)
+    albedo = glm::mix(glm::dvec3(1), albedo, params_.colorFromBase) * glm::mix(params_.rootColor, params_.tipColor, h);
+  if (own) albedo *= Own(tiles, h);
+  return groomed || own ? glm::min(albedo, glm::dvec3(1)) : albedo;
+}
+
 glm::dvec3 Coat::Shade(const Lighting& lit, const glm::dvec3& ray, const FurFrame& frame, const glm::dvec2& uv,
                        const glm::dvec2& tiles, double h) const {
-  glm::dvec3 albedo = color_.Rgb(uv) * factor_;
-  if (lit.look == Look::Correct) albedo = glm::min(albedo * Own(tiles, h), 1.0);
+  const glm::dvec3 albedo = Albedo(lit.look, uv, tiles, h);
   const glm::dvec3 normal = UnitOr(frame.normal, {0, 0, 1}), axis = UnitOr(frame.direction, normal);
   const glm::dvec3 tangent = UnitOr(frame.tangent - axis * glm::dot(frame.tangent, axis), {1, 0, 0});
   // The demo's frames are right-handed everywhere.

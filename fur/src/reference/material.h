@@ -43,6 +43,7 @@ class Coat {
  private:
   glm::dvec3 Filtered(const std::vector<uint8_t>& pixels, const glm::dvec2& tiles, double h) const;  // rgb, 0..1
   glm::dvec3 Own(const glm::dvec2& tiles, double h) const;  // the strands' factor of the colour
+  glm::dvec3 Albedo(Look, const glm::dvec2& uv, const glm::dvec2& tiles, double h) const;
 
   FurVolume volume_;
   std::vector<uint8_t> coverage_;  // of the volume, the slices of a texel side by side

@@ -1,17 +1,14 @@
 #include "scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fur::reference {
 namespace {
 
-// The comb is relative to the fur's length: a part's scale changes its length, not its angle.
-glm::dvec3 CombIn(const glm::dmat4& transform, const glm::dvec3& comb) {
-  const glm::dmat3 linear(transform);
-  const double volume = std::abs(glm::determinant(linear));
-  if (!(volume > 0)) return glm::dvec3(0);
-  const glm::dvec3 turned = glm::inverse(linear) * comb * std::cbrt(volume);
-  return std::isfinite(turned.x + turned.y + turned.z) ? turned : glm::dvec3(0);
+// In lengths of the fur, in the part's axes.
+glm::dvec3 OffsetOf(const FurVertex& v, const FurSway& sway) {
+  return sway.Varies() ? TipOffset(sway, glm::dvec3(v.position), glm::dvec3(v.direction)) : sway.comb;
 }
 
 template <class T>
@@ -49,6 +46,8 @@ FurScene::FurScene(const Model& model, std::span<const glm::dmat4> placements, c
       furnace_(s.furnace),
       comb_(s.comb),
       bend_(s.bend),
+      time_(s.time),
+      windLength_(std::max(ComputeBounds(model).Diameter() / 2, 1e-6)),
       meshes_(MakeFurMeshes(model, s.look == Look::Correct ? FurTiling::Isometric : FurTiling::Model)) {
   for (const Material& m : model.materials) {
     const bool furred = m.fur && m.fur->params.enabled;
@@ -80,7 +79,6 @@ void FurScene::AddPart(const fur::Part& source, const glm::dmat4& placement) {
   part.normalToWorld = NormalMatrix(part.linear);
   part.primitive = source.primitive;
   part.material = primitive.material;
-  part.comb = CombIn(source.transform, comb_);
   part.mirrored = glm::determinant(part.linear) < 0;
   for (uint32_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
     SkinTriangle t{{}, uint32_t(parts_.size()), i / 3, skins_[part.material]->DoubleSided()};
@@ -89,24 +87,36 @@ void FurScene::AddPart(const fur::Part& source, const glm::dmat4& placement) {
           toWorld * glm::dvec4(glm::dvec3(primitive.vertices[primitive.indices[i + k]].position), 1);
     skin_.push_back(t);
   }
+  if (Furred(part)) part.sway = SwayOf(model_.materials[part.material], source, placement);
   parts_.push_back(part);
   if (Furred(part)) AddPrisms(part, toWorld);
 }
 
+FurSway FurScene::SwayOf(const Material& m, const fur::Part& part, const glm::dmat4& placement) const {
+  FurParams p = m.fur->params;
+  if (comb_) {
+    p.comb = *comb_;
+    p.combStrength = glm::length(*comb_);
+  }
+  if (bend_) p.bend = *bend_;
+  if (p.windLength == 0) p.windLength = windLength_;
+  return MakeFurSway(p, placement, part.transform, time_, glm::dvec3(0));
+}
+
 void FurScene::AddPrisms(const Part& part, const glm::dmat4& toWorld) {
   const FurMesh& mesh = meshes_[part.primitive];
-  const bool combed = part.comb != glm::dvec3(0);
+  const bool leans = part.sway.Varies() || part.sway.comb != glm::dvec3(0);
   for (uint32_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     Prism prism;
     prism.part = uint32_t(parts_.size() - 1);
     prism.triangle = i / 3;
-    prism.bend = combed ? bend_ : 1;
+    prism.bend = leans ? part.sway.bend : 1;
     for (uint32_t k = 0; k < 3; ++k) {
       const FurVertex& v = mesh.vertices[mesh.indices[i + k]];
       const double length = double(v.position.w) * coats_[part.material]->Length();
       prism.p[k] = toWorld * glm::dvec4(glm::dvec3(v.position), 1);
       prism.a[k] = part.linear * (glm::dvec3(v.direction) * length);
-      prism.c[k] = part.linear * (part.comb * length);
+      prism.c[k] = part.linear * (OffsetOf(v, part.sway) * length);
     }
     prisms_.push_back(prism);
   }
@@ -145,11 +155,12 @@ glm::dvec3 FurScene::Shade(const Prism& prism, const FurPoint& point, const Ray&
   const auto [x, y, z] = Vertices(prism);
   const glm::dvec3& b = point.b;
   // The axis of the strand at this height: dX/dh.
-  const double bend = prism.bend == 1 ? 1 : bend_ * std::pow(point.h, bend_ - 1);
+  const double bend = prism.bend == 1 ? 1 : prism.bend * std::pow(point.h, prism.bend - 1);
   const auto mixed = [&](const glm::vec4& i, const glm::vec4& j, const glm::vec4& k) {
     return Mix(b, glm::dvec3(i), glm::dvec3(j), glm::dvec3(k));
   };
-  const FurFrame frame{part.linear * (mixed(x->direction, y->direction, z->direction) + part.comb * bend),
+  const glm::dvec3 lean = Mix(b, OffsetOf(*x, part.sway), OffsetOf(*y, part.sway), OffsetOf(*z, part.sway));
+  const FurFrame frame{part.linear * (mixed(x->direction, y->direction, z->direction) + lean * bend),
                        part.normalToWorld * mixed(x->normal, y->normal, z->normal),
                        part.linear * mixed(x->tangent, y->tangent, z->tangent),
                        (b.x * double(x->tangent.w) + b.y * double(y->tangent.w) + b.z * double(z->tangent.w)) *

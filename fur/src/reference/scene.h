@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fur/fur_mesh.h"
+#include "fur/groom.h"
 #include "material.h"
 #include "prism.h"
 
@@ -56,11 +57,12 @@ class FurScene {
   struct Part {
     glm::dmat3 linear{1}, normalToWorld{1};
     uint32_t primitive = 0, material = 0;
-    glm::dvec3 comb{0};     // in the part's axes
+    FurSway sway;
     bool mirrored = false;  // its transform turns the winding around, and what cross products say
     double Handedness() const { return mirrored ? -1 : 1; }
   };
   void AddPart(const fur::Part&, const glm::dmat4& placement);
+  FurSway SwayOf(const Material&, const fur::Part&, const glm::dmat4& placement) const;
   void AddPrisms(const Part&, const glm::dmat4& toWorld);
   // What interpolation needs of a furred triangle's corners, in the order of their reading.
   struct Corners {
@@ -75,8 +77,9 @@ class FurScene {
   Semantics semantics_;
   Lighting lighting_;
   std::optional<glm::dvec3> furnace_;
-  glm::dvec3 comb_;
-  double bend_;
+  std::optional<glm::dvec3> comb_;
+  std::optional<double> bend_;
+  double time_, windLength_;
   std::vector<FurMesh> meshes_;
   std::vector<std::unique_ptr<Coat>> coats_;  // of each material; null: bald
   std::vector<std::unique_ptr<Skin>> skins_;
