@@ -60,8 +60,9 @@ float WayLeft(float4 crossing, float along, float height, bool rises) {
 
 // Fur heights on the way of the ray that no shell stands for.
 float WayInVolume(FurVarying v) {
-  float along = saturate(v.fur.z);
-  return WayLeft(v.before, along, v.fur.x, v.before.z > 0.0) + WayLeft(v.behind, along, v.fur.x, v.behind.z < 0.0);
+  // With several samples a pixel's middle may lie beside the fin.
+  float along = saturate(v.fur.z), height = saturate(v.fur.x);
+  return WayLeft(v.before, along, height, v.before.z > 0.0) + WayLeft(v.behind, along, height, v.behind.z < 0.0);
 }
 
 #endif

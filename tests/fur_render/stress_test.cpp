@@ -116,6 +116,7 @@ std::vector<Scene> Views() {
   Scene& corner = add("a vertex in the eye", Cube(Rough()));
   corner.camera.eye = glm::dvec3(1, 1, 1);
   corner.camera.zNear = 1e-3;
+  add("the built-in animal", MakeBuiltinAnimal()).camera = CameraAt(4.5, 200, 20);
   Scene& inside = add("the eye within the fur", Cube(Rough()));
   inside.camera = CameraAt(1.2, 0, 0);
   inside.camera.zNear = 1e-3;
@@ -168,10 +169,12 @@ TEST_P(Stress, EveryPixelIsANumber) {
   const Scene& scene = SceneAt(GetParam());
   for (const BackendCase& backend : Backends()) {
     TestDevice device(backend);
-    for (const Look look : {Look::Correct, Look::Seed}) {
-      const RenderSettings s = SettingsOf(scene, look);
+    for (const auto& [look, samples] : {std::pair{Look::Correct, 1u}, {Look::Correct, 4u}, {Look::Seed, 1u}}) {
+      RenderSettings s = SettingsOf(scene, look);
+      s.samples = samples;
       const FloatImage image = Pixels(device, scene.model, s, scene.camera);
-      const std::string what = std::string(backend.name) + (look == Look::Seed ? ", seed" : ", correct");
+      const std::string what = std::string(backend.name) + (look == Look::Seed ? ", seed" : ", correct") + ", samples " +
+                               std::to_string(samples);
       EXPECT_TRUE(AllFinite(image)) << what;
       EXPECT_TRUE(look == Look::Seed || WithinLight(image, s.light)) << what;
     }
