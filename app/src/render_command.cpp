@@ -30,7 +30,7 @@ struct RenderFlags {
   SceneFlags scene;
   std::string output = "fur.png", backend = "vulkan", technique = "shells", preset, stats, shellMode = "instanced",
               finMode = "auto", adapter;
-  uint32_t samples = 1, shells = 0, shellsAtOnce = 1, repeat = 1;
+  uint32_t samples = 1, shells = 0, shellsAtOnce = 1, repeat = 1, supersample = 1;
   double finThreshold = 0.25, deadZone = 0.25, spacing = 0;
   std::optional<double> finOpacity;
   bool noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
@@ -66,6 +66,12 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   s.drawFins = !f.noFins;
   s.drawShells = !f.noShells;
   SetShellOptions(f, &s);
+  if (f.supersample > 1 && s.technique == fur::Technique::Seed)
+    return Error{ErrorCode::Usage, "--supersample needs a frame of floats, which technique seed and its presets have not"};
+  s.width *= f.supersample;
+  s.height *= f.supersample;
+  if (std::max(s.width, s.height) > kMaxSide)
+    return Error{ErrorCode::Usage, fmt::format("--size times --supersample must not exceed {} a side", kMaxSide)};
   return s;
 }
 
@@ -122,6 +128,7 @@ Result<RenderJob> PrepareJob(const RenderFlags& f, const fur::Model& model) {
   Result<fur::RenderSettings> settings = MakeSettings(f);
   if (!settings) return settings.error();
   job.settings = *settings;
+  job.supersample = f.supersample;
   Result<SceneView> view = MakeView(f.scene, model, double(settings->width) / settings->height);
   if (!view) return view.error();
   job.placements = std::move(view->placements);
@@ -194,6 +201,8 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
       ->check(CLI::IsMember({"vulkan", "gl", "both"}))->capture_default_str();
   c->add_option("--adapter", f->adapter, "Part of an adapter's name (fur info lists them); default: the first");
   c->add_option("--samples", f->samples, "Samples a pixel, 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  c->add_option("--supersample", f->supersample, "Frames N times as wide and high, averaged in linear light; technique shells")
+      ->check(CLI::Range(1u, 8u))->capture_default_str();
   c->add_option("--technique", f->technique, "shells, or seed: shells and fins as published")->check(CLI::IsMember({"shells", "seed"}))->capture_default_str();
   c->add_option("--shells", f->shells, "Number of shells, 1..512; default: as the coat says")->check(CLI::Range(1u, kMaxShells));
   c->add_option("--repeat", f->repeat, "Timed frames after the first")->check(CLI::Range(0u, 100000u))->capture_default_str();

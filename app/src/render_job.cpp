@@ -25,6 +25,28 @@ fur::Error Explain(fur::Error error, const MessageCollector& messages) {
   return error;
 }
 
+// The mean is of linear light; look seed has no other.
+fur::Image Stored(fur::FloatImage frame, fur::Look look) {
+  if (look == fur::Look::Correct) EncodeSrgb(&frame);
+  return {"frame", frame.width, frame.height, ToBytes(frame)};
+}
+
+fur::Result<fur::Done> ReadPicture(fur::Renderer& renderer, const RenderJob& job, RenderOutcome* out) {
+  if (job.floatFrame || job.supersample > 1) {
+    fur::Result<fur::FloatImage> frame = renderer.ReadPixels();
+    if (!frame) return frame.error();
+    out->frame = job.supersample > 1 ? Reduced(*frame, job.supersample) : std::move(*frame);
+  }
+  if (job.supersample > 1) {
+    out->image = Stored(out->frame, job.settings.look);
+    return fur::Done{};
+  }
+  fur::Result<fur::Image> image = renderer.ReadImage();
+  if (!image) return image.error();
+  out->image = std::move(*image);
+  return fur::Done{};
+}
+
 fur::Result<RenderOutcome> RunOnDevice(rhi::IDevice& device, const fur::Model& model, const RenderJob& job) {
   RenderOutcome out;
   out.caps = device.GetCaps();
@@ -35,14 +57,7 @@ fur::Result<RenderOutcome> RunOnDevice(rhi::IDevice& device, const fur::Model& m
   if (!first) return first.error();
   out.firstFrameMs = *first;
   out.rhiStats = device.GetStats(true);
-  fur::Result<fur::Image> image = (*renderer)->ReadImage();
-  if (!image) return image.error();
-  out.image = std::move(*image);
-  if (job.floatFrame) {
-    fur::Result<fur::FloatImage> frame = (*renderer)->ReadPixels();
-    if (!frame) return frame.error();
-    out.frame = std::move(*frame);
-  }
+  if (fur::Result<fur::Done> read = ReadPicture(**renderer, job, &out); !read) return read.error();
   if (fur::Result<fur::Done> timed = TimeFrames(**renderer, job, &out); !timed) return timed.error();
   fur::Result<fur::FrameCounts> counts = (*renderer)->Count(job.camera, job.placements);
   if (!counts) return counts.error();

@@ -20,6 +20,7 @@ struct RenderJob {
   bool validate = false;   // API and synchronization validation
   std::string adapter;
   bool floatFrame = false; // read the frame as floats too
+  uint32_t supersample = 1; // the settings' sides are this many times the picture's; needs a frame of floats
 };
 
 struct RenderOutcome {

@@ -20,7 +20,6 @@ using fur::Error;
 using fur::ErrorCode;
 using fur::Result;
 
-constexpr uint32_t kMaxSide = 16384;
 constexpr uint32_t kMaxAnimals = 10000;
 const glm::dvec3 kStudioGrey{0.30, 0.32, 0.34};  // linear; an outline of fur shows on it, light and dark
 

@@ -10,6 +10,8 @@
 
 namespace app {
 
+inline constexpr uint32_t kMaxSide = 16384;  // of a frame, pixels
+
 struct SceneFlags {
   std::string model, size = "1280x720", look = "correct", semantics, eye, target, coat, furFile, furMaterial, background;
   std::map<std::string, std::string> fur;  // FurParams keys that flags set, as they were spelled

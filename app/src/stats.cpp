@@ -27,8 +27,9 @@ nlohmann::ordered_json StatsJson(const RenderOutcome& out, const RenderJob& job)
   if (job.settings.preset == fur::Preset::FourCoats) j["coat"] = ToString(job.settings.fourCoat);
   j["look"] = ToString(job.settings.look);
   j["semantics"] = ToString(job.settings.semantics);
-  j["width"] = job.settings.width;
-  j["height"] = job.settings.height;
+  j["width"] = job.settings.width / job.supersample;
+  j["height"] = job.settings.height / job.supersample;
+  j["supersample"] = job.supersample;
   j["samples"] = job.settings.samples;
   j["animals"] = job.placements.size();
   j["first_frame_ms"] = out.firstFrameMs;

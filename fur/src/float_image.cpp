@@ -27,4 +27,14 @@ std::vector<uint8_t> ToBytes(const FloatImage& image) {
   return bytes;
 }
 
+FloatImage Reduced(const FloatImage& image, uint32_t factor) {
+  FloatImage out{image.width / factor, image.height / factor, {}};
+  out.pixels.resize(size_t{out.width} * out.height, glm::vec4(0));
+  const float share = 1 / float(factor * factor);
+  for (uint32_t y = 0; y < out.height * factor; ++y)
+    for (uint32_t x = 0; x < out.width * factor; ++x)
+      out.pixels[size_t{y / factor} * out.width + x / factor] += image.pixels[size_t{y} * image.width + x] * share;
+  return out;
+}
+
 }  // namespace fur

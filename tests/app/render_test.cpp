@@ -1,4 +1,5 @@
 // Pictures, differences and stats of the built-in animal.
+#include "fur/exr_io.h"
 #include "program.h"
 
 namespace app::test {
@@ -155,6 +156,26 @@ TEST(Stats, BothBackendsSubmitAndShadeTheSame) {
   EXPECT_EQ(s["difference"]["differing"], 0);
   EXPECT_EQ(s["difference"]["largest"], 0);
   EXPECT_EQ(s["difference"]["equal_share"], 1.0);
+}
+
+// The mean of squares of a frame as large, made here by hand.
+TEST(Render, SupersamplingIsTheMeanOfALargerFrame) {
+  const Folder folder;
+  ExpectSuccess(RunFur({"render", "-o", folder / "large.exr", "--size", "192x144", "--repeat", "0"}));
+  ExpectSuccess(RunFur({"render", "-o", folder / "mean.exr", "--size", "96x72", "--supersample", "2", "--repeat", "0"}));
+  const auto large = fur::ReadExr(folder / "large.exr"), mean = fur::ReadExr(folder / "mean.exr");
+  ASSERT_TRUE(large && mean);
+  ASSERT_EQ(mean->image.width, 96u);
+  ASSERT_EQ(mean->image.height, 72u);
+  for (uint32_t y = 0; y < 72; ++y)
+    for (uint32_t x = 0; x < 96; ++x) {
+      const auto at = [&](uint32_t i, uint32_t j) { return large->image.pixels[size_t{y * 2 + j} * 192 + x * 2 + i]; };
+      const glm::vec4 mine = (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)) / 4.0f;
+      for (int c = 0; c < 4; ++c) ASSERT_NEAR(mean->image.pixels[size_t{y} * 96 + x][c], mine[c], 1e-6);
+    }
+  const Outcome refused = RunFur({"render", "-o", folder / "x.png", "--technique", "seed", "--supersample", "2"});
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_NE(refused.err.find("--supersample"), std::string::npos) << refused.err;
 }
 
 TEST(Stats, CountsFollowTheFlags) {

@@ -21,6 +21,9 @@ void EncodeSrgb(FloatImage* image);
 // RGBA8 of rgb clamped to 0..1 and rounded, as it is; alpha 255.
 std::vector<uint8_t> ToBytes(const FloatImage& image);
 
+// The means of squares of `factor` pixels, which divides both sides: a box filter.
+FloatImage Reduced(const FloatImage& image, uint32_t factor);
+
 // One number for each pixel; row 0 on top.
 struct Plane {
   uint32_t width = 0, height = 0;
