@@ -21,7 +21,7 @@ else
   coats=("$@")
 fi
 models=("")
-for model in cat/cat.gltf spot/spot.glb torus/torus.gltf; do
+for model in cat/cat.gltf spot/spot.glb torus/torus.gltf; do  # spot looks to -z
   if [ -f "$assets/$model" ]; then models+=("$assets/$model"); fi
 done
 
@@ -36,7 +36,9 @@ picture() {  # LABEL, then flags of `fur render`
 for coat in "${coats[@]}"; do
   name="$(basename "$coat" .json)"
   for model in "${models[@]}"; do
-    picture "$name" ${model:+"$model"} --coat "$coat"
+    front=0,0,0
+    if [[ "$model" == */spot.glb ]]; then front=0,0,-1; fi
+    picture "$name" ${model:+"$model"} --coat "$coat" --front "$front"
   done
   picture "$name, near" --coat "$coat" --eye -1.6,1.2,1.2 --target 0,0.6,-0.1 --fov 22
   if [ -f "$assets/cat/cat.gltf" ]; then

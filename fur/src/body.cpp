@@ -92,12 +92,26 @@ Body::Body(const Model& model) {
   Sample();
 }
 
+namespace {
+
+// What the first furred material says, else the longer horizontal side; level and unit.
+dvec3 FrontOf(const Model& model, const dvec3& size) {
+  for (const Material& m : model.materials) {
+    if (!m.fur) continue;
+    const dvec3 level(m.fur->params.front.x, 0, m.fur->params.front.z);
+    if (const double length = glm::length(level); length > 0) return level / length;
+  }
+  return size.x > size.z ? dvec3(1, 0, 0) : dvec3(0, 0, 1);
+}
+
+}  // namespace
+
 void Body::Weld(const Model& model) {
   const Bounds bounds = ComputeBounds(model);
   const dvec3 size = bounds.max - bounds.min;
-  const bool alongX = size.x > size.z;
+  const dvec3 front = FrontOf(model, size), side(front.z, 0, -front.x);
   const double scale = bounds.Diameter() > 0 ? 1 / bounds.Diameter() : 1, height = size.y > 0 ? size.y : 1;
-  const auto turned = [&](const dvec3& v) { return alongX ? dvec3(-v.z, v.y, v.x) : v; };
+  const auto turned = [&](const dvec3& v) { return dvec3(glm::dot(side, v), v.y, glm::dot(front, v)); };
   const auto less = [](const dvec3& a, const dvec3& b) {
     return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
   };

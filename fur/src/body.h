@@ -33,7 +33,7 @@ struct Source {
 };
 std::vector<double> SurfaceDistance(const Skin&, const std::vector<Source>&);
 
-// The body's axes (the longer horizontal one is along it; it looks to +z, or to +x where that is longer) and the places of
+// The body's axes (it looks where the first furred material's `front` says) and the places of
 // all vertices. Equal positions have equal places, whatever their normals and texture coordinates.
 class Body {
  public:

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 constexpr double kLongest = 0.5;  // fur, in diameters
 // They belong to the model that wears the coat.
 const char* const kModelKeys[] = {"enabled", "length_scale", "length_map",     "direction_map",
-                                  "layers",  "furless_map",  "layer_uv_scale"};
+                                  "layers",  "furless_map",  "layer_uv_scale", "front"};
 
 Error Refuse(const std::string& where, const std::string& what) {
   return {ErrorCode::InputMalformed, where + ": " + what};
@@ -96,6 +96,7 @@ FurParams Wear(const Coat& coat, const FurParams& own, double diameter) {
   worn.lengthMap = own.lengthMap;
   worn.directionMap = own.directionMap;
   worn.furlessMap = own.furlessMap;
+  worn.front = own.front;
   worn.length = coat.length * diameter;
   return worn;
 }

@@ -74,6 +74,8 @@ const std::vector<Entry>& Entries() {
            "Distance of two waves of wind in model units; 0: half of the model's diameter", 0, 1e9),
       Make("inertia_stiffness", "--inertia-stiffness", &P::inertiaStiffness,
            "Of the spring that holds moving fur, 1/s^2", 0, 1e5, true),
+      Make("front", "--front", &P::front,
+           "The way the animal looks, model axes, for a coat's markings; 0,0,0: +z, or +x where it is longer", -1e6, 1e6),
       Make("inertia_damping", "--inertia-damping", &P::inertiaDamping, "Of the spring that holds moving fur, 1/s", 0, 1e3),
   };
   return entries;

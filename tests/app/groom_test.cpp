@@ -36,7 +36,7 @@ std::string Value(const fur::FurKey& key, const std::string& picture) {
       {"thickness", "2"},        {"comb", "0,-1,0"},       {"comb_strength", "2"},    {"bend", "1"},
       {"gravity", "1"},          {"root_color", "0,0,1"},  {"tip_color", "2,0,0"},    {"color_from_base", "0.2"},
       {"tint", "0"},            {"clumping", "1"},       {"wetness", "1"},         {"wind", "0,0,-1"},
-      {"wind_strength", "2"},
+      {"wind_strength", "2"},   {"front", "0,0,-1"},
       {"wind_frequency", "1.7"}, {"wind_length", "0.3"},   {"inertia_stiffness", ""}, {"inertia_damping", ""}};
   const auto it = kValues.find(key.name);
   return it != kValues.end() ? it->second : key.kind == fur::FurKind::Files ? picture + "," + picture : picture;
@@ -46,6 +46,7 @@ std::string Value(const fur::FurKey& key, const std::string& picture) {
 std::vector<std::string> Beside(const std::string& key) {
   if (key == "comb_strength" || key == "bend") return {"--comb", "0,-1,0"};
   if (key == "wind_frequency" || key == "wind_length" || key == "wind") return {"--wind-strength", "1", "--time", "0.4"};
+  if (key == "front") return {"--coat", "tiger"};
   return {};
 }
 

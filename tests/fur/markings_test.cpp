@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -94,6 +95,22 @@ TEST(SurfaceDistance, GoesAroundATube) {
   }
   EXPECT_EQ(least, 0);
   EXPECT_NEAR(most, M_PI * 0.2, 0.02);
+}
+
+// Turned around, and told so: the same places.
+TEST(Body, LooksWhereTheModelSays) {
+  Model turned = Animal();
+  for (Part& part : turned.parts) part.transform = glm::rotate(glm::dmat4(1), M_PI, dvec3(0, 1, 0)) * part.transform;
+  turned.materials[0].fur->params.front = {0, 5, -3};
+  const Body body(turned);
+  for (uint32_t v = 0; v < turned.primitives[0].vertices.size(); ++v) {
+    const Place &was = AnimalBody().At(0, v), &is = body.At(0, v);
+    ASSERT_NEAR(glm::length(was.p - is.p), 0, 1e-9);
+    ASSERT_NEAR(was.nose, is.nose, 1e-9);
+    ASSERT_NEAR(was.tail, is.tail, 1e-9);
+  }
+  turned.materials[0].fur->params.front = glm::dvec3(0);
+  EXPECT_GT(glm::length(Body(turned).At(0, 0).p - AnimalBody().At(0, 0).p), 0.01) << "not told";
 }
 
 TEST(Body, EqualPositionsAreOnePlace) {

@@ -17,7 +17,7 @@ TEST(Params, ReadsEveryKey) {
     "density": 2, "thickness": 3, "comb": [1, 2, 3], "comb_strength": 4, "bend": 5, "gravity": 0.6, "furless_map": "f.png",
     "root_color": [0, 1, 2], "tip_color": [2, 1, 0], "color_from_base": 0.7, "tint": 0.3, "clumping": 0.8, "wetness": 0.9,
     "wind": [-1, 0, 1], "wind_strength": 1.1, "wind_frequency": 1.2, "wind_length": 1.3, "inertia_stiffness": 14,
-    "inertia_damping": 15})");
+    "inertia_damping": 15, "front": [1, 0, -1]})");
   ASSERT_TRUE(ApplyFurJson(json, "test", false, &params));
   FurParams expected;
   expected.enabled = false;
@@ -50,6 +50,7 @@ TEST(Params, ReadsEveryKey) {
   expected.windLength = 1.3;
   expected.inertiaStiffness = 14;
   expected.inertiaDamping = 15;
+  expected.front = {1, 0, -1};
   EXPECT_EQ(params, expected);
 }
 

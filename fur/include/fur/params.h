@@ -49,6 +49,8 @@ struct FurParams {
   double windFrequency = 0.8;  // [wind_frequency] waves a second
   double windLength = 0;       // [wind_length] distance of two waves, model units; 0: half of the model's diameter
   double inertiaStiffness = 400, inertiaDamping = 12;  // [inertia_stiffness] 1/s^2, [inertia_damping] 1/s: fur/inertia.h
+  glm::dvec3 front{0};         // [front] the way the animal looks, model axes, for a coat's markings; 0: +z, or +x where the
+                               // model is longer that way
   bool operator==(const FurParams&) const = default;
 };
 
