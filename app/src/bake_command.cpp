@@ -112,12 +112,7 @@ void AddBakeCommand(CLI::App& app, Command* run) {
   c->add_flag("--no-mips", flags->noMips, "Leave out the mips");
   c->add_flag("--progress", flags->progress, "Show the progress bar even where stderr is no terminal");
   AddKeyFlags(c, flags.get());
-  c->callback([flags, run] {
-    *run = [flags] {
-      Result<Done> done = RunBake(*flags);
-      return done ? 0 : Fail(done.error());
-    };
-  });
+  c->callback([flags, run] { *run = Running(flags, RunBake); });
 }
 
 }  // namespace app

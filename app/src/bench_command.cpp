@@ -193,7 +193,17 @@ Result<Done> CheckAgreement(const std::string& file, const BenchReport& report, 
                fmt::format("{} ratios are apart from those of {}", agreement->apart.size(), file)};
 }
 
+// CLI11 cannot check a list.
+Result<Done> CheckTechniques(const std::string& techniques) {
+  std::istringstream in(techniques);
+  for (std::string one; std::getline(in, one, ',');)
+    if (one != "seed" && one != "shells")
+      return Error{ErrorCode::Usage, "--techniques takes seed and shells, not '" + one + "'"};
+  return Done{};
+}
+
 Result<Done> Bench(const BenchFlags& f) {
+  if (Result<Done> known = CheckTechniques(f.techniques); !known) return known;
   if (Result<Done> ok = CheckFlags(f); !ok) return ok;
   if (f.list) {
     PrintList(f);
@@ -245,15 +255,6 @@ void AddFlags(CLI::App* c, BenchFlags* f) {
   c->add_flag("--progress", f->progress, "Show the progress bar even where stderr is no terminal");
 }
 
-// CLI11 cannot check a list.
-Result<Done> CheckTechniques(const std::string& techniques) {
-  std::istringstream in(techniques);
-  for (std::string one; std::getline(in, one, ',');)
-    if (one != "seed" && one != "shells")
-      return Error{ErrorCode::Usage, "--techniques takes seed and shells, not '" + one + "'"};
-  return Done{};
-}
-
 }  // namespace
 
 void AddBenchCommand(CLI::App& app, Command* run) {
@@ -261,13 +262,7 @@ void AddBenchCommand(CLI::App& app, Command* run) {
   CLI::App* c =
       app.add_subcommand("bench", "Measure run time against error over techniques, options, scenes and backends");
   AddFlags(c, flags.get());
-  c->callback([flags, run] {
-    *run = [flags] {
-      Result<Done> done = CheckTechniques(flags->techniques);
-      if (done) done = Bench(*flags);
-      return done ? 0 : Fail(done.error());
-    };
-  });
+  c->callback([flags, run] { *run = Running(flags, Bench); });
 }
 
 }  // namespace app

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 
 #include "fur/result.h"
 
@@ -20,5 +21,14 @@ void AddInfoCommand(CLI::App& app, Command* run);
 
 // Prints "fur: error: ..." as one line on stderr; returns the error's exit code.
 int Fail(const fur::Error& error);
+
+// Runs `work` on the flags as they are when the command is run.
+template <class Flags>
+Command Running(std::shared_ptr<Flags> flags, fur::Result<fur::Done> (*work)(const Flags&)) {
+  return [flags, work] {
+    fur::Result<fur::Done> done = work(*flags);
+    return done ? 0 : Fail(done.error());
+  };
+}
 
 }  // namespace app

@@ -158,12 +158,7 @@ void AddCompareCommand(CLI::App& app, Command* run) {
   auto flags = std::make_shared<CompareFlags>();
   CLI::App* c = app.add_subcommand("compare", "Measure how far picture B is from the reference A");
   AddFlags(c, flags.get());
-  c->callback([flags, run] {
-    *run = [flags] {
-      Result<Done> done = Compare(*flags);
-      return done ? 0 : Fail(done.error());
-    };
-  });
+  c->callback([flags, run] { *run = Running(flags, Compare); });
 }
 
 }  // namespace app

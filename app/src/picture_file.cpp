@@ -23,12 +23,24 @@ fur::Result<fur::Done> CheckPictureFile(const std::filesystem::path& file, const
                         file.string()};
 }
 
+fur::Image StoredPicture(fur::FloatImage frame, fur::Look look) {
+  if (look == fur::Look::Correct) fur::EncodeSrgb(&frame);
+  return {"frame", frame.width, frame.height, fur::ToBytes(frame)};
+}
+
+fur::Result<fur::Done> WriteFrame(const std::filesystem::path& file, fur::FloatImage frame, fur::Look look) {
+  if (!IsExrName(file)) {
+    const fur::Image stored = StoredPicture(std::move(frame), look);
+    return fur::WritePng(file, stored.width, stored.height, stored.pixels);
+  }
+  if (look == fur::Look::Seed) fur::DecodeSrgb(&frame);
+  return fur::WriteExr(file, frame);
+}
+
 fur::Result<fur::Done> WritePicture(const std::filesystem::path& file, const RenderOutcome& outcome,
                                     const fur::RenderSettings& settings) {
-  if (!IsExrName(file)) return fur::WritePng(file, outcome.image.width, outcome.image.height, outcome.image.pixels);
-  fur::FloatImage frame = outcome.frame;
-  if (settings.look == fur::Look::Seed) fur::DecodeSrgb(&frame);
-  return fur::WriteExr(file, frame);
+  if (IsExrName(file)) return WriteFrame(file, outcome.frame, settings.look);
+  return fur::WritePng(file, outcome.image.width, outcome.image.height, outcome.image.pixels);
 }
 
 }  // namespace app

@@ -70,15 +70,6 @@ Result<Done> CheckOutputs(const ReferenceFlags& f) {
   return Done{};
 }
 
-Result<Done> WriteColor(const std::string& file, fur::FloatImage image, fur::Look look) {
-  if (!IsExrName(file)) {
-    if (look == fur::Look::Correct) fur::EncodeSrgb(&image);
-    return fur::WritePng(file, image.width, image.height, fur::ToBytes(image));
-  }
-  if (look == fur::Look::Seed) fur::DecodeSrgb(&image);
-  return fur::WriteExr(file, image);
-}
-
 // Values of 0..1 as grey and as alpha. In bytes they are rounded up: what is above 1/255 stays above it.
 Result<Done> WriteRegion(const std::string& file, const fur::Plane& plane) {
   if (file.empty()) return Done{};
@@ -97,7 +88,7 @@ Result<Done> CheckFinite(const fur::FloatImage& image) {
 
 Result<Done> WriteOutputs(const ReferenceFlags& f, const fur::ReferenceImage& image, fur::Look look) {
   if (Result<Done> finite = CheckFinite(image.color); !finite) return finite;
-  if (Result<Done> written = WriteColor(f.output, image.color, look); !written) return written;
+  if (Result<Done> written = WriteFrame(f.output, image.color, look); !written) return written;
   if (Result<Done> written = WriteRegion(f.mask, fur::MaskOf(image)); !written) return written;
   return WriteRegion(f.band, fur::BandOf(image));
 }
@@ -161,12 +152,7 @@ void AddReferenceCommand(CLI::App& app, Command* run) {
   auto flags = std::make_shared<ReferenceFlags>();
   CLI::App* c = app.add_subcommand("reference", "Integrate the fur on the CPU: the picture that render approximates");
   AddFlags(c, flags.get());
-  c->callback([flags, run] {
-    *run = [flags] {
-      Result<Done> done = Run(*flags);
-      return done ? 0 : Fail(done.error());
-    };
-  });
+  c->callback([flags, run] { *run = Running(flags, Run); });
 }
 
 }  // namespace app

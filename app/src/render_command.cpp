@@ -223,10 +223,7 @@ void AddRenderCommand(CLI::App& app, Command* run) {
   c->callback([c, flags, run] {
     for (const CLI::Option* option : c->get_options())
       if (option->count() > 0) flags->given.insert(option->get_name());
-    *run = [flags] {
-      Result<Done> done = Render(*flags);
-      return done ? 0 : Fail(done.error());
-    };
+    *run = Running(flags, Render);
   });
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "picture_file.h"
+
 namespace app {
 namespace {
 
@@ -25,12 +27,6 @@ fur::Error Explain(fur::Error error, const MessageCollector& messages) {
   return error;
 }
 
-// The mean is of linear light; look seed has no other.
-fur::Image Stored(fur::FloatImage frame, fur::Look look) {
-  if (look == fur::Look::Correct) EncodeSrgb(&frame);
-  return {"frame", frame.width, frame.height, ToBytes(frame)};
-}
-
 fur::Result<fur::Done> ReadPicture(fur::Renderer& renderer, const RenderJob& job, RenderOutcome* out) {
   if (job.floatFrame || job.supersample > 1) {
     fur::Result<fur::FloatImage> frame = renderer.ReadPixels();
@@ -38,7 +34,7 @@ fur::Result<fur::Done> ReadPicture(fur::Renderer& renderer, const RenderJob& job
     out->frame = job.supersample > 1 ? Reduced(*frame, job.supersample) : std::move(*frame);
   }
   if (job.supersample > 1) {
-    out->image = Stored(out->frame, job.settings.look);
+    out->image = StoredPicture(out->frame, job.settings.look);
     return fur::Done{};
   }
   fur::Result<fur::Image> image = renderer.ReadImage();

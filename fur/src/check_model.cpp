@@ -1,21 +1,13 @@
 // What a model must be before anyone indexes into it.
 #include <cmath>
 
+#include "finite.h"
 #include "fur/model.h"
 
 namespace fur {
 namespace {
 
 Error Malformed(const std::string& what) { return Error{ErrorCode::InputMalformed, what}; }
-
-template <glm::length_t N, class T>
-bool IsFinite(const glm::vec<N, T>& v) {
-  for (glm::length_t i = 0; i < N; ++i)
-    if (!std::isfinite(v[i])) return false;
-  return true;
-}
-
-bool IsFinite(const glm::dmat4& m) { return IsFinite(m[0]) && IsFinite(m[1]) && IsFinite(m[2]) && IsFinite(m[3]); }
 
 // nullptr: nothing.
 const char* FaultOf(const Vertex& v) {

@@ -293,8 +293,8 @@ class Resolver {
 
   // The markings instead of the materials' own pictures, in their texture coordinates.
   void Paint(const Markings& markings) {
-    Unwrap(markings.size);
-    const Body body(model_);
+    Body body(model_);
+    if (Unwrap(body, markings.size)) body = Body(model_);
     for (uint32_t i = 0; i < model_.materials.size(); ++i) {
       Material& material = model_.materials[i];
       if (!material.fur) continue;
@@ -304,14 +304,14 @@ class Resolver {
     }
   }
 
-  // Where one texel shows two places, new texture coordinates.
-  void Unwrap(uint32_t side) {
+  // Where one texel shows two places, new texture coordinates. Whether there are any: vertices are split.
+  bool Unwrap(const Body& body, uint32_t side) {
     constexpr double kMostOverlap = 0.002;  // a texel here and there on a seam
-    const Body body(model_);
     std::vector<uint32_t> overlapping;
     for (uint32_t i = 0; i < model_.materials.size(); ++i)
       if (model_.materials[i].fur && OverlapShare(model_, body, i) > kMostOverlap) overlapping.push_back(i);
     for (const uint32_t i : overlapping) UnwrapMaterial(&model_, i, side);
+    return !overlapping.empty();
   }
 
   FurVolume LoadLayers(const std::vector<std::string>& layers) {

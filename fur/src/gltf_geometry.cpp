@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finite.h"
 #include "gltf_internal.h"
 
 namespace fur::gltf {
@@ -82,7 +83,7 @@ class PrimitiveReader {
     draft_.primitive.vertices.resize(n.count);
     for (size_t i = 0; i < n.count; ++i) {
       const glm::vec3 p = Vec3(n, i);
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      if (!IsFinite(p))
         doc_.Malformed(what_, ".POSITION of vertex ", i, " is not finite");
       draft_.primitive.vertices[i].position = p;
     }

@@ -4,17 +4,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "finite.h"
 #include "gltf_internal.h"
 
 namespace fur::gltf {
 namespace {
-
-bool IsFinite(const glm::dmat4& m) {
-  for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r)
-      if (!std::isfinite(m[c][r])) return false;
-  return true;
-}
 
 glm::dmat4 MatrixFrom(std::span<const double> columnMajor) {
   glm::dmat4 m(1);
@@ -155,7 +149,7 @@ void ApplySkin(Document& doc, const Hierarchy& hierarchy, int skin, Draft* draft
     const glm::dmat3 linear(m);
     Vertex& v = vertices[i];
     v.position = glm::vec3(m * glm::dvec4(glm::dvec3(v.position), 1.0));
-    if (!std::isfinite(v.position.x) || !std::isfinite(v.position.y) || !std::isfinite(v.position.z))
+    if (!IsFinite(v.position))
       doc.Malformed(draft->primitive.name, ": the skin moves vertex ", i, " out of range");
     // Normals transform by the cofactor matrix: the inverse transpose up to a factor, and defined for singular ones.
     const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),

@@ -3,13 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include "finite.h"
 #include "fur/topology.h"
 #include "gltf_internal.h"
 
 namespace fur::gltf {
 namespace {
-
-bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // A zero or non-finite vector stays unusable: false.
 bool Normalize(glm::dvec3* v) {

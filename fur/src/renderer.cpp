@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "creation.h"
+#include "finite.h"
 #include "fur_shaders/fur_shaders.h"
 #include "presets.h"
 #include "technique.h"
@@ -125,13 +126,6 @@ class Presenter {
   rhi::Ref<rhi::IShaderResourceView> frame_;
 };
 
-bool IsFinite(const glm::dmat4& m) {
-  for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r)
-      if (!std::isfinite(m[c][r])) return false;
-  return true;
-}
-
 class RendererImpl final : public Renderer {
  public:
   RendererImpl(rhi::IDevice& device, const RenderSettings& settings) : device_(device), settings_(settings) {}
@@ -243,19 +237,19 @@ class RendererImpl final : public Renderer {
 
   // An animal that is nowhere, or that a number without meaning moves, is not drawn.
   void KeepFinite(FrameInputs* in) {
-    std::vector<size_t> kept;
-    for (size_t i = 0; i < in->placements.size(); ++i) {
-      const glm::dvec3 offset = in->OffsetOf(i);
-      if (IsFinite(in->placements[i]) && std::isfinite(offset.x + offset.y + offset.z)) kept.push_back(i);
-    }
-    if (kept.size() == in->placements.size()) return;
+    const size_t animals = in->placements.size();
+    const auto isFinite = [in](size_t i) { return IsFinite(in->placements[i]) && IsFinite(in->OffsetOf(i)); };
+    size_t finite = 0;
+    while (finite < animals && isFinite(finite)) ++finite;
+    if (finite == animals) return;
     finitePlacements_.clear();
     finiteOffsets_.clear();
-    for (const size_t i : kept) {
+    for (size_t i = 0; i < animals; ++i) {
+      if (!isFinite(i)) continue;
       finitePlacements_.push_back(in->placements[i]);
       finiteOffsets_.push_back(in->OffsetOf(i));
     }
-    in->counts->skippedAnimals += in->placements.size() - kept.size();
+    in->counts->skippedAnimals += animals - finitePlacements_.size();
     in->placements = finitePlacements_;
     in->motion.offsets = finiteOffsets_;
   }

@@ -50,12 +50,6 @@ Camera Scaled(Camera c, double scale) {
   return c;
 }
 
-bool AllFinite(const FloatImage& image) {
-  for (const glm::vec4& p : image.pixels)
-    if (!std::isfinite(p.r + p.g + p.b + p.a)) return false;
-  return !image.pixels.empty();
-}
-
 // Share of pixels of which a channel differs by more than 1/255.
 double Beyond(const FloatImage& a, const FloatImage& b) {
   size_t count = 0;

@@ -134,12 +134,6 @@ const Scene& SceneAt(size_t i) {
   return scenes[i];
 }
 
-bool AllFinite(const FloatImage& image) {
-  for (const glm::vec4& p : image.pixels)
-    if (!std::isfinite(p.r + p.g + p.b + p.a)) return false;
-  return !image.pixels.empty();
-}
-
 // What light can make of a surface: more is not energy but a fault. The strands' highlight and the skin's add to it.
 bool WithinLight(const FloatImage& image, const Light& light) {
   const double most = light.ambient.r + light.diffuse.r + 2 * light.specular.r + 0.01;

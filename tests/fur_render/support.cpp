@@ -103,4 +103,10 @@ void ExpectColor(const Rgb& got, const glm::dvec3& expected, double tolerance, c
   for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(got[c], 255 * expected[int(c)], tolerance) << what << ", channel " << c;
 }
 
+bool AllFinite(const FloatImage& image) {
+  for (const glm::vec4& p : image.pixels)
+    if (!std::isfinite(p.r + p.g + p.b + p.a)) return false;
+  return !image.pixels.empty();
+}
+
 }  // namespace fur::test

@@ -63,6 +63,9 @@ Frame Render(TestDevice&, const Model&, const RenderSettings&, const Camera&,
 FloatImage Pixels(TestDevice&, const Model&, const RenderSettings&, const Camera&,
                   const std::vector<glm::dmat4>& placements = {glm::dmat4(1)});
 
+// Whether there are pixels, and each is a number.
+bool AllFinite(const FloatImage&);
+
 using Rgb = std::array<int, 3>;
 Rgb PixelAt(const Image&, uint32_t x, uint32_t y);
 Rgb Center(const Image&);
