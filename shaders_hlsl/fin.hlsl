@@ -27,7 +27,7 @@ void GSMain(lineadj FurVertex v[4], inout TriangleStream<FurVarying> fins) {
 float4 PSMain(FurVarying v) : SV_Target {
   Fur fur = ReadFur(v.uv.zw, v.fur.x);
 #ifdef FIN_IN_VOLUME
-  float alpha = (1.0 - pow(1.0 - fur.coverage, fur.crowding * furShape.z * WayInVolume(v))) * fin.y * InsideFur(v);
+  float alpha = SlabOpacity(fur.coverage, fur.crowding * furShape.z * WayInVolume(v)) * fin.y * InsideFur(v);
 #else
   float alpha = FinAlpha(fur) * v.fur.z * InsideFur(v);
 #endif
