@@ -30,6 +30,9 @@ void SetOptions(GlslCompiler& c) {
   o.version = 450;
   o.vertex.flip_vert_y = true;
   o.vertex.support_nonzero_base_instance = false;
+  // A loop's phi is declared before it and set in its body, but read in the for statement, which Mesa takes for a read of
+  // something uninitialised; it says so only while its own shader cache is cold.
+  o.force_zero_initialized_variables = true;
   c.set_common_options(o);
 }
 
