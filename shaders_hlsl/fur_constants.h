@@ -50,7 +50,8 @@ FUR_CBUFFER(ObjectConstants, b2) {
 };
 
 FUR_CBUFFER(DrawConstants, b3) {
-  FUR_FLOAT4 draw;  // shells: x: first shell, y: +1 inside out or -1 outside in, z: shells in a geometry shader's loop
+  FUR_FLOAT4 draw;  // shells: x: first shell, y: +1 inside out or -1 outside in, z: shells in a geometry shader's loop, or
+                    // of each triangle in the sorted list
                     // compaction of fins: x: edges, y: first entry of the list, z: index of the arguments
 };
 

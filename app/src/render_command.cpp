@@ -28,18 +28,19 @@ constexpr uint32_t kMaxShells = 512;
 
 struct RenderFlags {
   SceneFlags scene;
-  std::string output = "fur.png", backend = "vulkan", technique = "shells", preset, stats, shellMode = "instanced",
+  std::string output = "fur.png", backend = "vulkan", technique = "shells", preset, stats, shellMode = "sorted",
               finMode = "auto", adapter;
   uint32_t samples = 1, shells = 0, shellsAtOnce = 1, repeat = 1, supersample = 1;
   double finThreshold = 0.25, deadZone = 0.25, spacing = 0;
   std::optional<double> finOpacity;
-  bool noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
+  bool floatTextures = false, noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
   std::set<std::string> given;  // the flags on the command line
 };
 
 // What belongs to technique shells alone, or to a preset too.
 void SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
-  s->shellMode = Choose<fur::ShellMode>(f.shellMode, {{"instanced", fur::ShellMode::Instanced},
+  s->shellMode = Choose<fur::ShellMode>(f.shellMode, {{"sorted", fur::ShellMode::Sorted},
+                                                      {"instanced", fur::ShellMode::Instanced},
                                                       {"draws", fur::ShellMode::Draws},
                                                       {"amplified", fur::ShellMode::Amplified}});
   s->shellsAtOnce = f.shellsAtOnce;
@@ -63,6 +64,7 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   if (Result<Done> preset = SetPreset(f.preset, f.scene.coat, f.given, &s); !preset) return preset.error();
   if (Result<Done> scene = SetScene(f.scene, &s); !scene) return scene.error();
   s.shells = f.shells;
+  s.floatTextures = f.floatTextures;
   s.drawFins = !f.noFins;
   s.drawShells = !f.noShells;
   SetShellOptions(f, &s);
@@ -176,8 +178,8 @@ void AddPresetFlags(CLI::App* c, RenderFlags* f) {
 }
 
 void AddShellFlags(CLI::App* c, RenderFlags* f) {
-  c->add_option("--shell-mode", f->shellMode, "Shells by instances, by a draw each, or amplified by a geometry shader")
-      ->check(CLI::IsMember({"instanced", "draws", "amplified"}))->capture_default_str();
+  c->add_option("--shell-mode", f->shellMode, "Shells sorted, triangle by triangle from back to front; or shell by shell: by instances, by a draw each, or amplified by a geometry shader")
+      ->check(CLI::IsMember({"sorted", "instanced", "draws", "amplified"}))->capture_default_str();
   c->add_option("--shells-at-once", f->shellsAtOnce,
                 "Amplified: shells of a triangle in one go, 1..14; above 1 overlapping limbs look different")
       ->check(CLI::Range(1u, 14u))->capture_default_str();
@@ -207,6 +209,8 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
   c->add_option("--shells", f->shells, "Number of shells, 1..512; default: as the coat says")->check(CLI::Range(1u, kMaxShells));
   c->add_option("--repeat", f->repeat, "Timed frames after the first")->check(CLI::Range(0u, 100000u))->capture_default_str();
   c->add_option("--stats", f->stats, "JSON file for times and counts");
+  c->add_flag("--float-textures", f->floatTextures,
+              "Textures as 32-bit floats: exact decoding and filter weights, for measurements; slow");
   c->add_flag("--no-fins", f->noFins, "Draw no fins");
   c->add_flag("--no-shells", f->noShells, "Draw no shells");
   AddPresetFlags(c, f);

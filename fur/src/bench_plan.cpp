@@ -92,6 +92,8 @@ std::vector<BenchConfig> BenchConfigs() {
       Changed("fins-gs", "fins by a geometry shader", [](RenderSettings* s) { s->finMode = FinMode::Geometry; }));
   configs.push_back(Changed("fins-pulled", "fins pulled", [](RenderSettings* s) { s->finMode = FinMode::Pulled; }));
   configs.push_back(
+      Changed("instanced", "an instance for each shell", [](RenderSettings* s) { s->shellMode = ShellMode::Instanced; }));
+  configs.push_back(
       Changed("draws", "a draw for each shell", [](RenderSettings* s) { s->shellMode = ShellMode::Draws; }));
   configs.push_back(
       Changed("gs", "shells by a geometry shader", [](RenderSettings* s) { s->shellMode = ShellMode::Amplified; }));

@@ -45,8 +45,9 @@ class Creation {
     Check(device_.CreateBlendState(desc, &state), "a blend state");
     return state;
   }
-  rhi::Ref<rhi::ISamplerState> Sampler(rhi::AddressMode uv) {
+  rhi::Ref<rhi::ISamplerState> Sampler(rhi::AddressMode uv, float mipBias) {
     rhi::SamplerDesc desc;
+    desc.mipBias = mipBias;
     desc.u = desc.v = uv;
     rhi::Ref<rhi::ISamplerState> sampler;
     Check(device_.CreateSamplerState(desc, &sampler), "a sampler");

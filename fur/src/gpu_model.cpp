@@ -33,7 +33,7 @@ class Uploader {
     for (uint32_t i = 0; i < model_.materials.size(); ++i) gpu.materials.push_back(MakeMaterial(i));
     for (const Part& p : model_.parts)
       gpu.parts.push_back({p.primitive, model_.primitives[p.primitive].material, p.transform,
-                           glm::determinant(glm::dmat3(p.transform)) < 0, nullptr});
+                           glm::determinant(glm::dmat3(p.transform)) < 0, {}, {}, {}});
     if (Sorts()) PrepareSorting(&gpu);
     for (size_t i = 0; i < gpu.materials.size() && gpu.firstFur < 0; ++i)
       if (gpu.materials[i].shells > 0) gpu.firstFur = int32_t(i);
@@ -43,9 +43,10 @@ class Uploader {
 
  private:
   bool Correct() const { return settings_.look == Look::Correct; }
+  bool Sorted() const { return settings_.shellMode == ShellMode::Sorted; }
   bool Sorts() const {
-    return settings_.technique == Technique::Shells && settings_.shellMode == ShellMode::Amplified &&
-           settings_.shellsAtOnce > 1 && settings_.drawShells;
+    const bool chunks = settings_.shellMode == ShellMode::Amplified && settings_.shellsAtOnce > 1;
+    return settings_.technique == Technique::Shells && (Sorted() || chunks) && settings_.drawShells;
   }
   // Technique shells has no preset: the plain one's traits change nothing.
   const PresetTraits& Traits() const { return TraitsOf(settings_.preset); }
@@ -81,7 +82,9 @@ class Uploader {
     constexpr uint32_t kEdgeBytes = 4 * sizeof(uint32_t);
     GpuFurMesh g;
     g.vertices = Buffer(mesh.vertices, Bind::VertexBuffer | Bind::ShaderResource, "fur vertices", sizeof(FurVertex));
-    g.indices = Buffer(mesh.indices, Bind::IndexBuffer, "fur indices");
+    g.indices = Sorted() ? Buffer(mesh.indices, Bind::ShaderResource, "fur indices", sizeof(uint32_t))
+                         : Buffer(mesh.indices, Bind::IndexBuffer, "fur indices");
+    if (Sorted()) g.indicesView = View(g.indices);
     g.edges = Buffer(mesh.edges, Bind::IndexBuffer | Bind::ShaderResource, "fur edges", kEdgeBytes);
     g.verticesView = View(g.vertices);
     g.edgesView = View(g.edges);
@@ -101,11 +104,21 @@ class Uploader {
     for (GpuPart& part : gpu->parts) {
       const auto bytes = uint32_t(gpu->furMeshes[part.primitive].cpuIndices.size() * sizeof(uint32_t));
       if (bytes == 0) continue;
-      Check(device_.CreateBuffer({.byteWidth = bytes, .usage = rhi::Usage::Dynamic, .bind = rhi::Bind::IndexBuffer,
-                                  .name = "sorted fur indices"},
-                                 nullptr, &part.sortedIndices),
-            "sorted fur indices");
+      if (Sorted()) {
+        part.order = DynamicBuffer({.byteWidth = bytes / 3, .usage = rhi::Usage::Dynamic, .bind = rhi::Bind::ShaderResource,
+                                    .structureStride = sizeof(uint32_t), .name = "order of fur"});
+        part.orderView = View(part.order);
+      } else {
+        part.sortedIndices = DynamicBuffer({.byteWidth = bytes, .usage = rhi::Usage::Dynamic,
+                                            .bind = rhi::Bind::IndexBuffer, .name = "sorted fur indices"});
+      }
     }
+  }
+
+  rhi::Ref<rhi::IBuffer> DynamicBuffer(const rhi::BufferDesc& desc) {
+    rhi::Ref<rhi::IBuffer> buffer;
+    Check(device_.CreateBuffer(desc, nullptr, &buffer), desc.name);
+    return buffer;
   }
 
   GpuGeometry Geometry(const Primitive& p) {
@@ -120,22 +133,47 @@ class Uploader {
     return g;
   }
 
+  static std::vector<float> Decoded(const std::vector<uint8_t>& texels, bool srgb) {
+    std::vector<float> values(texels.size());
+    for (size_t i = 0; i < texels.size(); ++i)
+      values[i] = float(srgb && i % 4 != 3 ? SrgbToLinear(texels[i] / 255.0) : texels[i] / 255.0);
+    return values;
+  }
+
+  rhi::Ref<rhi::IShaderResourceView> FloatTexture(const std::vector<MipChain>& mips, rhi::TextureDesc desc) {
+    const bool srgb = desc.format == rhi::Format::RGBA8_UNorm_sRGB;
+    desc.format = rhi::Format::RGBA32_Float;
+    std::vector<std::vector<float>> levels;
+    std::vector<rhi::SubresourceData> init;
+    for (const MipChain& chain : mips)
+      for (uint32_t level = 0; level < chain.size(); ++level) {
+        levels.push_back(Decoded(chain[level], srgb));
+        init.push_back({levels.back().data(), uint32_t(std::max(1u, desc.width >> level) * 4 * sizeof(float)), 0});
+      }
+    return ViewOfTexture(desc, init);
+  }
+
+  rhi::Ref<rhi::IShaderResourceView> ViewOfTexture(const rhi::TextureDesc& desc, const std::vector<rhi::SubresourceData>& init) {
+    rhi::Ref<rhi::ITexture> texture;
+    rhi::Ref<rhi::IShaderResourceView> view;
+    Check(device_.CreateTexture(desc, init.data(), &texture), desc.name);
+    if (texture) Check(device_.CreateShaderResourceView(texture.get(), nullptr, &view), desc.name);
+    return view;
+  }
+
   // A texture of layers with all their levels.
   rhi::Ref<rhi::IShaderResourceView> Texture(const std::vector<MipChain>& mips, uint32_t width,
                                              uint32_t height, bool array, rhi::Format format, const std::string& name) {
+    const rhi::TextureDesc desc{.dim = array ? rhi::TextureDim::Tex2DArray : rhi::TextureDim::Tex2D,
+                                .width = width, .height = height, .depthOrArray = uint32_t(mips.size()),
+                                .mipLevels = uint32_t(mips[0].size()), .format = format,
+                                .usage = rhi::Usage::Immutable, .name = name.c_str()};
+    if (settings_.floatTextures) return FloatTexture(mips, desc);
     std::vector<rhi::SubresourceData> init;
     for (const auto& chain : mips)
       for (uint32_t level = 0; level < chain.size(); ++level)
         init.push_back({chain[level].data(), std::max(1u, width >> level) * 4, 0});
-    rhi::TextureDesc desc{.dim = array ? rhi::TextureDim::Tex2DArray : rhi::TextureDim::Tex2D,
-                          .width = width, .height = height, .depthOrArray = uint32_t(mips.size()),
-                          .mipLevels = uint32_t(mips[0].size()), .format = format,
-                          .usage = rhi::Usage::Immutable, .name = name.c_str()};
-    rhi::Ref<rhi::ITexture> texture;
-    rhi::Ref<rhi::IShaderResourceView> view;
-    Check(device_.CreateTexture(desc, init.data(), &texture), name);
-    if (texture) Check(device_.CreateShaderResourceView(texture.get(), nullptr, &view), name);
-    return view;
+    return ViewOfTexture(desc, init);
   }
 
   rhi::Ref<rhi::IShaderResourceView> ImageTexture(const Image& image, MipFilter filter) {
@@ -189,6 +227,7 @@ class Uploader {
 
   rhi::Ref<rhi::ISamplerState> Sampler(bool wrapU, bool wrapV) {
     rhi::SamplerDesc desc;
+    if (settings_.technique == Technique::Shells) desc.mipBias = kSurfaceMipBias;
     desc.u = wrapU ? rhi::AddressMode::Wrap : rhi::AddressMode::Clamp;
     desc.v = wrapV ? rhi::AddressMode::Wrap : rhi::AddressMode::Clamp;
     rhi::Ref<rhi::ISamplerState> sampler;
@@ -311,7 +350,7 @@ class Uploader {
                                        : ModelTexture(fur.lengthMap, MipFilter::Raw);
     // The demo's shells lose coverage with height whatever the volume holds.
     const double falloff = AsShipped() ? 1 : p.heightFalloff;
-    const double length = WetLength(FurLength(index, p, gpu->shells), p.wetness);
+    const double length = gpu->length = WetLength(FurLength(index, p, gpu->shells), p.wetness);
     // Uploaded once however many materials wear it: its mips are the dearest thing made here.
     rhi::Ref<rhi::IShaderResourceView>& uploaded = furVolumes_[{fur.volume, p.thickness, falloff}];
     if (!uploaded) uploaded = Volume(volume, falloff);

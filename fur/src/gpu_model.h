@@ -10,6 +10,10 @@
 
 namespace fur {
 
+// Mips of technique shells, in levels: a trilinear filter takes the longer side of a pixel's footprint and reads two texels
+// a side; these are nearer to the box over the pixel, with no more flicker (docs/measured.md).
+inline constexpr float kSurfaceMipBias = -1, kVolumeMipBias = -0.5f;
+
 struct GpuGeometry {  // of one primitive
   rhi::Ref<rhi::IBuffer> vertices, indices, finIndices;  // finIndices: presets.h; null for technique shells
   uint32_t indexCount = 0, finIndexCount = 0;
@@ -17,9 +21,9 @@ struct GpuGeometry {  // of one primitive
 
 struct GpuFurMesh {  // of one furred primitive, for technique shells (fur/fur_mesh.h); null elsewhere
   rhi::Ref<rhi::IBuffer> vertices, indices, edges;
-  rhi::Ref<rhi::IShaderResourceView> verticesView, edgesView;  // structured: FurVertex; uint4
+  rhi::Ref<rhi::IShaderResourceView> verticesView, edgesView, indicesView;  // structured: FurVertex; uint4; uint
   uint32_t indexCount = 0, edgeCount = 0, baldTriangles = 0, baldEdges = 0;
-  std::vector<uint32_t> cpuIndices;  // these two for several shells of a triangle at once only
+  std::vector<uint32_t> cpuIndices;  // these two where triangles are sorted only
   TriangleOrder order;
 };
 
@@ -31,6 +35,7 @@ struct GpuMaterial {
   rhi::Ref<rhi::ISamplerState> surfaceSampler;
   rhi::Ref<rhi::IBuffer> constants;  // MaterialConstants
   uint32_t shells = 0;               // 0: bald
+  double length = 0;                 // of the fur, in the primitive's units, wet as it is
   bool betweenSlices = false;        // a shell may lie between two slices of the volume
   bool doubleSided = false;
   FurParams groom;                // for how it leans (fur/groom.h), with the settings' comb and wind_length resolved
@@ -44,7 +49,10 @@ struct GpuPart {
   uint32_t primitive = 0, material = 0;
   glm::dmat4 transform{1};
   bool mirrored = false;  // the transform turns the winding around
-  rhi::Ref<rhi::IBuffer> sortedIndices;  // dynamic; null but for several shells of a triangle at once
+  // Dynamic, of an entry for each triangle in the order of drawing (shell_sorted.hlsl), or three indices; null where
+  // triangles are not sorted.
+  rhi::Ref<rhi::IBuffer> order, sortedIndices;
+  rhi::Ref<rhi::IShaderResourceView> orderView;
 };
 
 struct GpuModel {

@@ -39,7 +39,7 @@ ObjectConstants MakeObjectConstants(const glm::dmat4& objectToWorld, const Frame
   return o;
 }
 
-PassBinding::PassBinding(Creation& c)
+PassBinding::PassBinding(Creation& c, float volumeMipBias)
     : depthWrite(c.Depth({.depthFunc = rhi::Comparison::Greater})),
       depthRead(c.Depth({.depthWrite = false, .depthFunc = rhi::Comparison::Greater})),
       opaque(c.Blend(rhi::Blend::One, rhi::Blend::Zero)),
@@ -49,7 +49,7 @@ PassBinding::PassBinding(Creation& c)
       frame_(c.DynamicConstants(sizeof(FrameConstants), "frame constants")),
       object_(c.DynamicConstants(sizeof(ObjectConstants), "object constants")),
       draw_(c.DynamicConstants(sizeof(DrawConstants), "draw constants")),
-      volumeSampler_(c.Sampler(rhi::AddressMode::Wrap)) {}
+      volumeSampler_(c.Sampler(rhi::AddressMode::Wrap, volumeMipBias)) {}
 
 void PassBinding::BindFrame(rhi::IContext& context, const FrameInputs& in) const {
   const FrameConstants frame = MakeFrameConstants(in);

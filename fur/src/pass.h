@@ -10,7 +10,7 @@ namespace fur {
 // Registers that every pass fills alike, and the states that all use. glTF: counter-clockwise faces are front.
 class PassBinding {
  public:
-  explicit PassBinding(Creation&);
+  PassBinding(Creation&, float volumeMipBias);
 
   void BindFrame(rhi::IContext&, const FrameInputs&) const;
   // Every texture of the material on every graphics stage, t0..t8 and s0, s1 (fur_volume.hlsli; t5..t7: the presets'

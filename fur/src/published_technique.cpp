@@ -27,7 +27,7 @@ class PublishedTechnique final : public ITechnique {
   PublishedTechnique(Creation& c, const RenderSettings& settings, const PresetShaders& blobs)
       : settings_(settings),
         traits_(TraitsOf(settings.preset)),
-        binding_(c),
+        binding_(c, 0),
         base_(c, settings.look, blobs.furredBase),
         shaders_(MakeShaders(c, blobs, settings)),
         layout_(ModelLayout(c, shaders_.shellVS.get())),
@@ -97,7 +97,8 @@ class PublishedTechnique final : public ITechnique {
     switch (traits_.shells) {
       case ShellMode::Instanced: context.DrawIndexedInstanced(g.indexCount, shells, 0, 0, 0); return 1;
       case ShellMode::Amplified: context.DrawIndexed(g.indexCount, 0, 0); return 1;
-      case ShellMode::Draws: break;
+      case ShellMode::Draws:
+      case ShellMode::Sorted: break;  // no published system sorts
     }
     for (uint32_t shell = 0; shell < shells; ++shell) {
       binding_.SetDraw(context, glm::vec4(float(shell), 1, 0, 0));

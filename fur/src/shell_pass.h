@@ -1,5 +1,6 @@
-// The shells of technique `shells`, three ways to the same picture. Seen from behind they come outside in, then seen
-// from the front inside out: shell by shell, or, amplified, some shells of each triangle at a time (docs/measured.md).
+// The shells of technique `shells`. Sorted: triangle by triangle, from the back to the front (triangle_order.h). Else those
+// seen from behind come outside in, then those seen from the front inside out: shell by shell, or, amplified, some shells
+// of each triangle at a time (docs/measured.md).
 #pragma once
 
 #include <array>
@@ -26,8 +27,11 @@ class ShellPass {
     bool back;
   };
   std::vector<rhi::IBuffer*> Indices(rhi::IContext&, const GpuModel&, const FrameInputs&, size_t animal) const;
-  static bool Sort(rhi::IContext&, const GpuFurMesh&, const glm::dvec3& eye, const glm::dvec3& comb,
-                   rhi::IBuffer* sorted);
+  // Draws all shells of a part, triangle by triangle.
+  void DrawSorted(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, size_t animal) const;
+  // What a part's shells are drawn with, but for vertices and indices.
+  void BindPart(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, size_t animal, const GpuPart&,
+                rhi::CullMode) const;
   struct Shaders {
     rhi::Ref<rhi::IShader> still, swaying;
     rhi::IShader* For(const GpuMaterial& m) const { return (m.sways ? swaying : still).get(); }

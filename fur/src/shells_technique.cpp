@@ -17,7 +17,7 @@ class ShellsTechnique final : public ITechnique {
  public:
   ShellsTechnique(Creation& c, const RenderSettings& settings)
       : settings_(settings),
-        binding_(c),
+        binding_(c, kVolumeMipBias),
         base_(c, settings.look),
         fins_(c, settings),
         shells_(c, settings),

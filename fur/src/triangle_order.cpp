@@ -101,6 +101,7 @@ TriangleOrder::TriangleOrder(std::span<const FurVertex> vertices, std::span<cons
     const double length = v.position.w;
     roots_.push_back({glm::dvec3(v.position), glm::dvec3(v.direction) * length, length});
   }
+  corners_.assign(indices.begin(), indices.end() - ptrdiff_t(indices.size() % 3));
   for (size_t i = 0; i + 2 < indices.size(); i += 3)
     middles_.push_back(
         (roots_[indices[i]].position + roots_[indices[i + 1]].position + roots_[indices[i + 2]].position) / 3.0);
@@ -147,6 +148,18 @@ std::vector<uint32_t> TriangleOrder::FarthestFirst(const glm::dvec3& eye) const 
   std::vector<uint32_t> order;
   for (const auto& [distance, triangle] : keys) order.push_back(triangle);
   return order;
+}
+
+bool TriangleOrder::SeenFromBehind(uint32_t triangle, const glm::dvec3& eye, const glm::dvec3& comb,
+                                   double length) const {
+  glm::dvec3 p[3], toTip(0);
+  for (size_t i = 0; i < 3; ++i) {
+    const Root& r = roots_[corners_[size_t{3} * triangle + i]];
+    p[i] = r.position + (r.toTip + comb * r.length) * (length / 2);
+    toTip += r.toTip;
+  }
+  const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+  return (glm::dot(normal, eye - p[0]) < 0) == (glm::dot(normal, toTip) > 0);
 }
 
 std::vector<uint32_t> TriangleOrder::BackToFront(const glm::dvec3& eye, const glm::dvec3& comb) const {

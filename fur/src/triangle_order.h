@@ -33,6 +33,10 @@ class TriangleOrder {
   // list's order.
   std::vector<uint32_t> BackToFront(const glm::dvec3& eye, const glm::dvec3& comb) const;
 
+  // Whether the eye is on the roots' side of the triangle's middle shell: its shells then come outside in. `length`: of the
+  // fur, in the vertices' units.
+  bool SeenFromBehind(uint32_t triangle, const glm::dvec3& eye, const glm::dvec3& comb, double length) const;
+
   size_t TriangleCount() const { return middles_.size(); }
 
  private:
@@ -53,6 +57,7 @@ class TriangleOrder {
 
   std::vector<Root> roots_;
   std::vector<Wall> walls_;
+  std::vector<uint32_t> corners_;    // three for each triangle
   std::vector<glm::dvec3> middles_;  // of the triangles
 };
 

@@ -32,7 +32,7 @@ TEST(BenchPlan, NamesAreUniqueAndOneIsTheDefault) {
     EXPECT_EQ(c.isDefault, s.technique == plain.technique && s.look == plain.look && s.semantics == plain.semantics &&
                                s.shells == 0 && s.drawFins && s.backFaces && s.sortAnimals && s.samples == 1 &&
                                s.target == TargetFormat::Auto && s.finMode == FinMode::Auto &&
-                               s.shellMode == ShellMode::Instanced)
+                               s.shellMode == ShellMode::Sorted)
         << c.name << ": what differs in nothing is the default";
   }
   EXPECT_EQ(defaults, 1);

@@ -37,8 +37,10 @@ enum class Semantics {
   Volume  // a slab of strands: opacity grows with the length of the way through it
 };
 
-// Three ways to the same picture.
+// Sorted: every limb's fur over that of the limb behind it. The others go shell by shell, whatever lies in front: three
+// ways to one picture.
 enum class ShellMode {
+  Sorted,     // one draw, all shells of a triangle before those of the next nearer one
   Instanced,  // one draw, an instance for each shell
   Draws,      // one draw for each shell
   Amplified   // a geometry shader makes the shells of a triangle, as many at a time as shellsAtOnce says
@@ -68,12 +70,14 @@ struct RenderSettings {
   double finDeadZone = 0.25;            // presets GsShells, FourCoats: |edge normal . view| below it grows a fin, 0..1
   uint32_t shells = 0;                  // 0: as the preset or the material says
   bool drawFins = true, drawShells = true;
+  // Textures decoded to 32-bit floats: drivers then filter with float weights where for bytes some take 8-bit ones.
+  bool floatTextures = false;
   glm::dvec3 background{0};  // linear for Correct, raw for Seed
   Light light;
 
   // Technique shells only; but fins' threshold and opacity, the comb and the spacing also where a preset has them.
-  ShellMode shellMode = ShellMode::Instanced;
-  // Amplified: 1..14. Above 1 the triangles are sorted back to front and the picture is that of the other modes only
+  ShellMode shellMode = ShellMode::Sorted;
+  // Amplified: 1..14. Above 1 the triangles are sorted back to front and the picture is that of one at a time only
   // where the fur of no two limbs overlaps: docs/measured.md.
   uint32_t shellsAtOnce = 1;
   FinMode finMode = FinMode::Auto;
