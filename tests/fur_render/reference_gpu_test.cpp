@@ -121,6 +121,21 @@ TEST(ReferenceAgainstGpu, SphereOfTintedFur) {
   ExpectAgreement("tinted", model, Look::Seed, Semantics::Sheet, camera);
 }
 
+// Few tiles, so that the GPU sees clumps larger than its pixels.
+TEST(ReferenceAgainstGpu, SphereOfClumpedFur) {
+  Model model = Sphere(3, LeaningCoat(0.25));
+  Tuft(&model);
+  model.materials[0].fur->params.clumping = 0.7;
+  ExpectAgreementInEveryWay("clumped", model, 4.5);
+}
+
+TEST(ReferenceAgainstGpu, SphereOfWetFur) {
+  Model model = Sphere(3, LeaningCoat(0.25));
+  Tuft(&model);
+  model.materials[0].fur->params.wetness = 0.6;
+  ExpectAgreementInEveryWay("wet", model, 4.5);
+}
+
 TEST(ReferenceAgainstGpu, Cube) { ExpectAgreementInEveryWay("cube", Cube(LeaningCoat(0.4)), 7); }
 
 TEST(ReferenceAgainstGpu, Tetrahedron) { ExpectAgreementInEveryWay("tetra", Tetrahedron(LeaningCoat(0.4)), 7); }

@@ -7,7 +7,7 @@ namespace fur::reference {
 namespace {
 
 constexpr double kUnseen = 0.01;         // of the tolerance: less than this of a step's light is left out
-constexpr double kFaint = 8;            // times the tolerance: what a faint step shows
+constexpr double kFaint = 16;           // times the tolerance: what a faint step shows
 constexpr int kMostSplits = 40;
 constexpr uint32_t kMostNodes = 1u << 22;  // of one ray: noise is not worth more
 constexpr double kSameDepth = 1e-12;     // relative: walls of neighbours

@@ -20,7 +20,7 @@ class Integrator {
         culler_(culler),
         tolerance_(tolerance),
         opaque_(0.01 * tolerance),
-        texelsOfAStep_(tolerance < 1e-4 ? 1 : 3) {}
+        texelsOfAStep_(tolerance < 1e-4 ? 1 : 4) {}
 
   // Of one thread: keeps its working memory.
   Radiance Trace(const Ray&, const glm::dvec3& background);

@@ -106,24 +106,18 @@ Coat::Coat(const Model& model, const Material& m, Look look)
 
 FurPlace Coat::PlaceAt(const glm::dvec2& tiles, double h) const {
   FurPlace place;
-  place.root = tiles;
-  place.crowding = params_.density;
-  if (params_.clumping > 0) {
-    const Clump clump = ClumpAt(tiles, h, params_.clumping);
-    place.root = clump.root;
-    place.crowding *= clump.spread * clump.spread;
-    place.inside = clump.inside;
-    place.lean = clump.lean;
-  }
-  place.cell = volume_.CellOf(place.root, h);
-  place.strands = volume_.Strands(place.cell);
+  const bool clumps = params_.clumping > 0;
+  const Clump clump = clumps ? ClumpAt(tiles, h, params_.clumping) : Clump{};
+  place.root = clumps ? clump.root : tiles;
+  const VolumeCell cell = volume_.CellOf(place.root, h);
+  const glm::dvec4 read = volume_.Strands(cell);
+  place.strand = UnpackStrand(glm::dvec3(read));
+  if (clumps) place.strand += glm::dvec3(clump.lean * place.strand.z, 0);
+  const double n = volume_.Slices(), slice = cell.below + cell.part;
+  const double a = std::min(read.a * (1 - falloff_ * slice / n), kMostCoverage) * clump.inside;
+  // Strands that stand closer together are more of them on the way of light.
+  if (a > 0) place.density = -n * params_.density * (clump.spread * clump.spread) * std::log(1 - a);
   return place;
-}
-
-double Coat::Density(const FurPlace& place, bool cut) const {
-  const double n = volume_.Slices(), slice = place.cell.below + place.cell.part;
-  const double a = std::min(place.strands.a * (1 - falloff_ * slice / n), kMostCoverage) * place.inside;
-  return a > 0 && !cut ? -n * place.crowding * std::log(1 - a) : 0;
 }
 
 double Coat::LeastLength(const glm::dvec2& low, const glm::dvec2& high) const {
@@ -136,7 +130,7 @@ glm::dvec3 Coat::Albedo(Look look, const glm::dvec2& uv, const FurPlace& place, 
   const bool own = look == Look::Correct && volume_.HasTint();
   if (groomed_)
     albedo = glm::mix(glm::dvec3(1), albedo, params_.colorFromBase) * glm::mix(params_.rootColor, params_.tipColor, h);
-  if (own) albedo *= 1.0 + (volume_.Tint(place.cell) * (255.0 / 128) - 1.0) * params_.tint;
+  if (own) albedo *= 1.0 + (volume_.Tint(volume_.CellOf(place.root, h)) * (255.0 / 128) - 1.0) * params_.tint;
   if (groomed_ || own) albedo = glm::min(albedo, glm::dvec3(1));
   return Darkened(albedo, darkening_);
 }
@@ -149,8 +143,7 @@ glm::dvec3 Coat::Shade(const Lighting& lit, const glm::dvec3& ray, const FurFram
   // The demo's frames are right-handed everywhere.
   const bool flipped = lit.look == Look::Correct && frame.handedness < 0;
   const glm::dvec3 bitangent = glm::cross(axis, tangent) * (flipped ? -1.0 : 1.0);
-  glm::dvec3 s = UnpackStrand(glm::dvec3(place.strands));
-  s += glm::dvec3(place.lean * s.z, 0);
+  const glm::dvec3& s = place.strand;
   const glm::dvec3 strand = UnitOr(tangent * s.x + bitangent * s.y + axis * s.z, axis);
   const Light& light = lit.light;
   const double r0 = params_.selfShadow;

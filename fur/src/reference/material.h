@@ -29,12 +29,9 @@ struct Lighting {
 
 // What a place in the fur reads of the volume.
 struct FurPlace {
-  VolumeCell cell;
-  glm::dvec4 strands{0};  // packed, and their coverage
-  glm::dvec2 root{0};   // tiles
-  double crowding = 1;  // exponent of 1 - coverage: the coat's density, and the clumps'
-  double inside = 1;    // factor of the coverage
-  glm::dvec2 lean{0};   // of the strands, in tangent space, for one unit along their axis
+  glm::dvec2 root{0};    // tiles
+  glm::dvec3 strand{0};  // in tangent space, not unit
+  double density = 0;    // optical depth for a unit of height, seen face-on
 };
 
 class Coat {
@@ -42,8 +39,6 @@ class Coat {
   Coat(const Model&, const Material&, Look);
 
   FurPlace PlaceAt(const glm::dvec2& tiles, double h) const;
-  // Optical depth for a unit of height, seen face-on. Zero where `cut`.
-  double Density(const FurPlace&, bool cut) const;
   // Where a strand is longer than the length map says. `length`: of the welded vertices, at this place.
   bool IsCut(const glm::dvec2& uv, double h, double length) const { return hasLengthMap_ && h * length > lengths_.Red(uv); }
   // What the length map says at least between these coordinates.

@@ -149,8 +149,7 @@ FurPoint FurScene::Read(const Prism& prism, const PrismView& view, double h) con
   point.place = coat.PlaceAt(Mix(at.b, c.tiles), h);
   // docs/accuracy.md: |dh| for sheets; |grad h| ds = |dh| / |m.w| for a volume.
   const bool cut = h > c.uncut && coat.IsCut(point.uv, h, Mix(at.b, c.length));
-  const double density = coat.Density(point.place, cut);
-  point.density = density * (semantics_ == Semantics::Volume ? at.secant : 1);
+  if (!cut) point.density = point.place.density * (semantics_ == Semantics::Volume ? at.secant : 1);
   return point;
 }
 
