@@ -128,7 +128,6 @@ TEST(ReferenceCommand, HonoursWhatFurIs) {
   ExpectHonoured({"--tip-color", "1.5,0.5,0.3", "--color-from-base", "0.5"}, false);
   ExpectHonoured({"--density", "0.2"}, false);
   ExpectHonoured({"--thickness", "0.3"}, false);
-  ExpectHonoured({"--clumping", "1"}, false);
   ExpectHonoured({"--wetness", "1"}, false);
 }
 
