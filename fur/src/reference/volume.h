@@ -46,7 +46,8 @@ class Volume {
     double fraction;
   };
   static TileCell TileAt(double tiles, uint32_t size) {
-    const double x = tiles * size - 0.5;
+    constexpr double kMost = 1e15;  // beyond, no texel can be told from the next
+    const double x = std::clamp(tiles * size - 0.5, -kMost, kMost);
     auto cell = int64_t(x);
     cell -= double(cell) > x;
     const int64_t n = size, first = (size & (size - 1)) == 0 ? cell & (n - 1) : ((cell % n) + n) % n;
