@@ -81,8 +81,8 @@ TEST(ReferenceSlab, GroomedCoatIsTheLimitOfManyShells) {
   for (const Groom& groom : {Groom{0.6, 0, 1}, {1, 0, 0.5}, {0, 0.5, 1}, {0.9, 0.4, 1.7}, {0, 1, 1}})
     for (const double degrees : {0.0, 40.0, 60.0}) {
       const Ray ray = Slanted(degrees);
-      SquareScene square{.semantics = Semantics::Volume, .light = settings.light, .color = {200, 150, 100, 255}, .coat = ConstantCoat(),
-                         .shells = 8000, .eye = ray.origin};
+      SquareScene square{.semantics = Semantics::Volume, .light = settings.light,
+                         .color = {200, 150, 100, 255}, .coat = ConstantCoat(), .shells = 8000, .eye = ray.origin};
       square.coat.selfShadow = 0.3;
       for (size_t i = 0; i < square.coat.slices.size(); ++i)
         square.coat.slices[i] = {uint8_t(90 + 20 * i), uint8_t(200 - 15 * i), 200, uint8_t(150 - 15 * i)};
