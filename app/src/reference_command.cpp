@@ -128,10 +128,10 @@ void AddFlags(CLI::App* c, ReferenceFlags* f) {
   c->add_option("--mask", f->mask, "PNG or EXR of the fur's opacity, for fur compare --mask");
   c->add_option("--band", f->band,
                 "PNG or EXR of the fur's opacity where no skin lies behind it, for fur compare --band");
-  c->add_option("--spp", f->samples, "Stratified samples a pixel, rounded up to a full grid")
+  c->add_option("--spp", f->samples, "Samples a pixel, spread evenly; powers of two are best")
       ->check(CLI::Range(1u, kMaxSamples))
       ->capture_default_str();
-  c->add_option("--seed", f->seed, "Of the samples' jitter: two seeds give two independent pictures")
+  c->add_option("--seed", f->seed, "Of the samples: two seeds give two independent pictures")
       ->capture_default_str();
   c->add_option("--threads", f->threads, "Threads; 0: one for each core. The picture does not depend on it")
       ->check(CLI::Range(0u, kMaxThreads))

@@ -70,6 +70,49 @@ TEST(ReferenceSlab, VaryingCoatIsTheLimitOfManyShells) {
     }
 }
 
+// Clumps and wetness, which change the skin, the length, the light and where strands stand.
+TEST(ReferenceSlab, GroomedCoatIsTheLimitOfManyShells) {
+  struct Groom {
+    double clumping, wetness, density;
+  };
+  ReferenceSettings settings = Precise(Look::Correct, Semantics::Volume);
+  settings.light = {.direction = {0.7, -0.4, -0.5}, .diffuse = {0.9, 0.8, 0.7}, .ambient = {0.1, 0.12, 0.14},
+                    .specular = glm::dvec3(0.5)};  // from the front
+  for (const Groom& groom : {Groom{0.6, 0, 1}, {1, 0, 0.5}, {0, 0.5, 1}, {0.9, 0.4, 1.7}, {0, 1, 1}})
+    for (const double degrees : {0.0, 40.0, 60.0}) {
+      const Ray ray = Slanted(degrees);
+      SquareScene square{.semantics = Semantics::Volume, .light = settings.light,
+                         .color = {200, 150, 100, 255}, .coat = ConstantCoat(), .shells = 8000, .eye = ray.origin};
+      square.coat.selfShadow = 0.3;
+      for (size_t i = 0; i < square.coat.slices.size(); ++i)
+        square.coat.slices[i] = {uint8_t(90 + 20 * i), uint8_t(200 - 15 * i), 200, uint8_t(150 - 15 * i)};
+      square.groom.clumping = groom.clumping;
+      square.groom.wetness = groom.wetness;
+      square.groom.density = groom.density;
+      const Model model = GroomedSquare(&square);
+      const ReferenceScene scene(model, settings);
+      const glm::dvec3 expected = CompositeMidpoints(square, ray.direction), got = scene.Trace(ray).color;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(got[c], expected[c], 2e-5) << "clumping " << groom.clumping << ", wetness " << groom.wetness << ", "
+                                               << degrees << " degrees, channel " << c;
+    }
+}
+
+// Skin under fur without coverage: rho^(1 + w) of the bald skin's, whose light is linear in rho. No highlight.
+TEST(ReferenceSlab, WetSkinIsAPowerOfTheDry) {
+  Model model = FurredSquare(50, {200, 150, 100, 255}, UniformCoat(kSlices, 0));
+  const Ray ray = Slanted(35);
+  ReferenceSettings settings = Precise(Look::Correct, Semantics::Volume);
+  settings.light.specular = glm::dvec3(0);
+  const glm::dvec3 dry = ReferenceScene(model, settings).Trace(ray).color;
+  for (const double wetness : {0.25, 1.0}) {
+    model.materials[0].fur->params.wetness = wetness;
+    const glm::dvec3 wet = ReferenceScene(model, settings).Trace(ray).color;
+    const glm::dvec3 rho(Decode(200 / 255.0), Decode(150 / 255.0), Decode(100 / 255.0));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(wet[c], dry[c] * std::pow(rho[c], wetness), 1e-12) << "channel " << c;
+  }
+}
+
 // Columns of texels by turns full and empty: from as opaque as full ones to nothing.
 TEST(ReferenceSlab, ReadsTheVolumeBilinearly) {
   Model model = FurredSquare(50, {200, 150, 100, 255}, ConstantCoat());

@@ -29,21 +29,7 @@ SquareScene Scene() {
 
 // The picture of a scene, whose frame is filled in from the mesh that is drawn, in four pixels against the oracle.
 void ExpectOracle(TestDevice& device, SquareScene scene, const Camera& camera, const std::string& what) {
-  Model model = FurredSquare(40, scene.color, scene.coat);
-  FurParams& params = model.materials[0].fur->params;
-  const FurParams coat = params;
-  params = scene.groom;
-  params.length = coat.length;
-  params.layerUvScale = 40;
-  params.selfShadow = coat.selfShadow;
-  params.specularPower = coat.specularPower;
-  params.specularScale = coat.specularScale;
-  const std::vector<FurVertex> v = MakeFurMeshes(model, FurTiling::Isometric)[0].vertices;
-  const auto tiles = [&](size_t i) { return glm::dvec2(v[i].furUv.x, v[i].furUv.y); };
-  scene.tangent = glm::dvec3(v[0].tangent);
-  scene.tilesForX = (tiles(1) - tiles(0)) / 80.0;
-  scene.tilesForY = (tiles(3) - tiles(0)) / 80.0;
-  scene.tilesAtOrigin = (tiles(0) + tiles(2)) / 2.0;
+  const Model model = GroomedSquare(&scene);
   scene.eye = camera.eye;
   const RenderSettings settings{.width = kWidth, .height = kHeight, .semantics = scene.semantics,
                                 .target = TargetFormat::Float32, .shells = scene.shells, .light = scene.light};

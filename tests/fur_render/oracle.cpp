@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "fur/fur_mesh.h"
+
 namespace fur::test {
 namespace {
 
@@ -131,6 +133,26 @@ glm::dvec3 Clamped(const glm::dvec3& c) { return glm::clamp(c, glm::dvec3(0), gl
 
 double Decode(double e) { return e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4); }
 double Encode(double l) { return l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055; }
+
+Model GroomedSquare(SquareScene* scene) {
+  constexpr double kHalf = 40;
+  Model model = FurredSquare(kHalf, scene->color, scene->coat);
+  FurParams& params = model.materials[0].fur->params;
+  const FurParams coat = params;
+  params = scene->groom;
+  params.length = coat.length;
+  params.layerUvScale = 40;
+  params.selfShadow = coat.selfShadow;
+  params.specularPower = coat.specularPower;
+  params.specularScale = coat.specularScale;
+  const std::vector<FurVertex> v = MakeFurMeshes(model, FurTiling::Isometric)[0].vertices;
+  const auto tiles = [&](size_t i) { return glm::dvec2(v[i].furUv.x, v[i].furUv.y); };
+  scene->tangent = glm::dvec3(v[0].tangent);
+  scene->tilesForX = (tiles(1) - tiles(0)) / (2 * kHalf);
+  scene->tilesForY = (tiles(3) - tiles(0)) / (2 * kHalf);
+  scene->tilesAtOrigin = (tiles(0) + tiles(2)) / 2.0;
+  return model;
+}
 
 glm::dvec3 RayThrough(const Camera& camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y) {
   const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);

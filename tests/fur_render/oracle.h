@@ -28,6 +28,9 @@ struct SquareScene {
   glm::dvec2 tilesAtOrigin{0}, tilesForX{0}, tilesForY{0};  // of the volume, for a unit along an axis
 };
 
+// The square of such a scene, 80 wide and 40 tiles of the volume; what the scene says of the tiles is filled in from its mesh.
+Model GroomedSquare(SquareScene*);
+
 // The way from the eye through the middle of a pixel, unit.
 glm::dvec3 RayThrough(const Camera&, uint32_t width, uint32_t height, uint32_t x, uint32_t y);
 

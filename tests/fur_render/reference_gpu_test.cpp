@@ -80,8 +80,7 @@ void ExpectAgreement(const std::string& name, const Model& model, Look look, Sem
   EXPECT_LE(fringe.mean, 0.003) << name;
 }
 
-void ExpectAgreementInEveryWay(const std::string& name, const Model& model, double distance) {
-  const Camera camera = CameraAt(distance, 30, 20);
+void ExpectAgreementInEveryWay(const std::string& name, const Model& model, const Camera& camera) {
   for (const Look look : {Look::Correct, Look::Seed})
     for (const Semantics semantics : {Semantics::Sheet, Semantics::Volume})
       ExpectAgreement(name, model, look, semantics, camera);
@@ -105,7 +104,7 @@ void Tuft(Model* model) {
 TEST(ReferenceAgainstGpu, Sphere) {
   Model model = Sphere(3, LeaningCoat(0.25));
   Tuft(&model);
-  ExpectAgreementInEveryWay("sphere", model, 4.5);
+  ExpectAgreementInEveryWay("sphere", model, CameraAt(4.5, 30, 20));
 }
 
 // Strands of their own colours, in every second texel too.
@@ -121,9 +120,27 @@ TEST(ReferenceAgainstGpu, SphereOfTintedFur) {
   ExpectAgreement("tinted", model, Look::Seed, Semantics::Sheet, camera);
 }
 
-TEST(ReferenceAgainstGpu, Cube) { ExpectAgreementInEveryWay("cube", Cube(LeaningCoat(0.4)), 7); }
+// On the lit side, with roots in shade, where clumps show in the interior too.
+void ExpectAgreementOfGroom(const std::string& name, double clumping, double wetness) {
+  Model model = Sphere(3, LeaningCoat(0.25));
+  Tuft(&model);
+  FurParams& p = model.materials[0].fur->params;
+  p.selfShadow = 0.3;
+  p.clumping = clumping;
+  p.wetness = wetness;
+  const Camera camera = CameraAt(4.5, 215, 20);
+  ExpectAgreement(name, model, Look::Correct, Semantics::Sheet, camera);
+  ExpectAgreement(name, model, Look::Correct, Semantics::Volume, camera);
+  ExpectAgreement(name, model, Look::Seed, Semantics::Sheet, camera);
+}
 
-TEST(ReferenceAgainstGpu, Tetrahedron) { ExpectAgreementInEveryWay("tetra", Tetrahedron(LeaningCoat(0.4)), 7); }
+TEST(ReferenceAgainstGpu, SphereOfClumpedFur) { ExpectAgreementOfGroom("clumped", 0.7, 0); }
+
+TEST(ReferenceAgainstGpu, SphereOfWetFur) { ExpectAgreementOfGroom("wet", 0, 0.5); }
+
+TEST(ReferenceAgainstGpu, Cube) { ExpectAgreementInEveryWay("cube", Cube(LeaningCoat(0.4)), CameraAt(7, 30, 20)); }
+
+TEST(ReferenceAgainstGpu, Tetrahedron) { ExpectAgreementInEveryWay("tetra", Tetrahedron(LeaningCoat(0.4)), CameraAt(7, 30, 20)); }
 
 }  // namespace
 }  // namespace fur::test

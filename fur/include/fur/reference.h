@@ -23,8 +23,8 @@ struct ReferenceSettings {
   std::optional<glm::dvec3> comb;  // RenderSettings, these three
   std::optional<double> bend;
   double time = 0;
-  uint32_t samplesPerPixel = 64;  // stratified in a grid, rounded up to a full one
-  uint64_t seed = 0;              // of the jitter within the strata
+  uint32_t samplesPerPixel = 64;  // spread evenly, best for powers of two
+  uint64_t seed = 0;              // of their scrambling
   uint32_t threads = 0;           // 0: one for each core. The picture does not depend on it
   // Of one step of the integration, for its effect on the pixel; the estimate is one order too pessimistic.
   double tolerance = 5e-3;
@@ -45,8 +45,8 @@ Plane MaskOf(const ReferenceImage&);
 Plane BandOf(const ReferenceImage&);
 
 // Skin is seen as the renderer draws it: back faces are culled unless the material is double-sided, between the camera's
-// near and far plane. Fur has no back: each crossing counts. The groom is that of technique shells (docs/fur.md) without
-// clumps: Usage, in words, for a coat that clumps or is wet. Usage for a crop outside the picture or no samples too.
+// near and far plane. Fur has no back: each crossing counts. The groom is that of technique shells (docs/fur.md), clumps
+// as if pixels were small against them. Usage for a crop outside the picture or no samples.
 Result<ReferenceImage> RenderReference(const Model&, const Camera&, std::span<const glm::dmat4> placements,
                                        const ReferenceSettings&);
 

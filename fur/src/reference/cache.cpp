@@ -11,7 +11,7 @@ namespace fur {
 namespace {
 
 // Changes with anything that changes a picture.
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 3;
 constexpr std::array<char, 8> kMagic{'f', 'u', 'r', 'r', 'e', 'f', '0', '1'};
 constexpr uint64_t kMostBytes = uint64_t{1} << 33;
 

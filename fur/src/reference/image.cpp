@@ -1,4 +1,4 @@
-// The reference picture: stratified rays through each pixel, tiles on several threads.
+// The reference picture: rays spread evenly over each pixel, tiles on several threads.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "integrate.h"
-#include "random.h"
+#include "pixel_samples.h"
 
 namespace fur {
 namespace {
@@ -14,6 +14,7 @@ namespace {
 using reference::Culler;
 using reference::FurScene;
 using reference::Integrator;
+using reference::PixelSamples;
 using reference::Radiance;
 using reference::Ray;
 
@@ -47,15 +48,6 @@ class Lens {
   glm::dvec3 forward_, right_, up_;
 };
 
-// Of a pixel, whoever renders it.
-uint64_t PixelSeed(uint64_t seed, uint32_t x, uint32_t y) {
-  // SplitMix64's finaliser (Steele, Lea, Flood 2014).
-  uint64_t z = seed * 0x9E3779B97F4A7C15u + ((uint64_t{y} << 32) | x);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
-}
-
 struct Crop {
   uint32_t x, y, width, height;
 };
@@ -72,17 +64,6 @@ Result<Crop> CropOf(const ReferenceSettings& s) {
   return c;
 }
 
-Result<Done> CheckGroom(const Model& model) {
-  for (const Material& m : model.materials) {
-    if (!m.fur || !m.fur->params.enabled) continue;
-    for (const auto& [key, value] : {std::pair{"clumping", m.fur->params.clumping}, {"wetness", m.fur->params.wetness}})
-      if (value > 0)
-        return Error{ErrorCode::Usage, "the reference knows no clumps: set " + std::string(key) + " of material '" + m.name +
-                                           "' to 0"};
-  }
-  return Done{};
-}
-
 class Picture {
  public:
   Picture(const FurScene& scene, const Culler& culler, const Camera& camera, const ReferenceSettings& s, Crop crop)
@@ -91,8 +72,6 @@ class Picture {
     image_.color = {crop.width, crop.height, std::vector<glm::vec4>(pixels)};
     image_.furOpacity.resize(pixels);
     image_.skin.resize(pixels);
-    across_ = uint32_t(std::ceil(std::sqrt(double(s.samplesPerPixel))));
-    down_ = (s.samplesPerPixel + across_ - 1) / across_;
     tilesX_ = (crop.width + kTile - 1) / kTile;
     tiles_ = tilesX_ * ((crop.height + kTile - 1) / kTile);
   }
@@ -108,35 +87,38 @@ class Picture {
   }
 
  private:
+  // Of one thread.
+  struct Worker {
+    Integrator integrator;
+    PixelSamples samples;
+  };
+
   void Work() {
-    Integrator integrator(scene_, culler_, settings_.tolerance);
+    Worker worker{Integrator(scene_, culler_, settings_.tolerance), PixelSamples(settings_.samplesPerPixel)};
     for (uint32_t tile = next_++; tile < tiles_; tile = next_++) {
-      RenderTile(&integrator, tile % tilesX_ * kTile, tile / tilesX_ * kTile);
+      RenderTile(&worker, tile % tilesX_ * kTile, tile / tilesX_ * kTile);
       if (!settings_.progress) continue;
       const std::lock_guard<std::mutex> lock(mutex_);
       settings_.progress(double(++done_) / tiles_);
     }
   }
 
-  void RenderTile(Integrator* integrator, uint32_t left, uint32_t top) {
+  void RenderTile(Worker* worker, uint32_t left, uint32_t top) {
     for (uint32_t y = top; y < std::min(top + kTile, crop_.height); ++y)
-      for (uint32_t x = left; x < std::min(left + kTile, crop_.width); ++x) RenderPixel(integrator, x, y);
+      for (uint32_t x = left; x < std::min(left + kTile, crop_.width); ++x) RenderPixel(worker, x, y);
   }
 
-  void RenderPixel(Integrator* integrator, uint32_t x, uint32_t y) {
+  void RenderPixel(Worker* worker, uint32_t x, uint32_t y) {
     const uint32_t px = crop_.x + x, py = crop_.y + y;
     const size_t index = size_t(y) * crop_.width + x;
-    Pcg32 random(PixelSeed(settings_.seed, px, py));
     glm::dvec4 sum(0);
     double fur = 0;
-    for (uint32_t j = 0; j < down_; ++j)
-      for (uint32_t i = 0; i < across_; ++i) {
-        const double u = (i + random.Uniform()) / across_, v = (j + random.Uniform()) / down_;
-        const Radiance r = integrator->Trace(lens_.Through(px + u, py + v), Background());
-        sum += glm::dvec4(r.color, r.skin ? 1 : r.furOpacity);
-        fur += r.furOpacity;
-      }
-    const double samples = double(across_) * down_;
+    for (const glm::dvec2& at : worker->samples.Of(settings_.seed, px, py)) {
+      const Radiance r = worker->integrator.Trace(lens_.Through(px + at.x, py + at.y), settings_.background);
+      sum += glm::dvec4(r.color, r.skin ? 1 : r.furOpacity);
+      fur += r.furOpacity;
+    }
+    const double samples = worker->samples.Count();
     image_.color.pixels[index] = glm::vec4(sum / samples);
     image_.furOpacity[index] = float(fur / samples);
     reference::Candidates center;
@@ -144,14 +126,12 @@ class Picture {
     image_.skin[index] = center.skin.Found();
   }
 
-  glm::dvec3 Background() const { return settings_.background; }
-
   const FurScene& scene_;
   const Culler& culler_;
   const ReferenceSettings& settings_;
   Crop crop_;
   Lens lens_;
-  uint32_t across_ = 1, down_ = 1, tilesX_ = 1, tiles_ = 1;
+  uint32_t tilesX_ = 1, tiles_ = 1;
   ReferenceImage image_;
   std::atomic<uint32_t> next_ = 0;
   std::mutex mutex_;
@@ -174,7 +154,6 @@ Result<ReferenceImage> RenderReference(const Model& model, const Camera& camera,
   if (Result<Done> ok = CheckModel(model); !ok) return ok.error();
   const Result<Crop> crop = CropOf(settings);
   if (!crop) return crop.error();
-  if (const Result<Done> known = CheckGroom(model); !known) return known.error();
   const FurScene scene(model, placements, settings);
   const Result<std::unique_ptr<Culler>> culler = reference::MakeEmbreeCuller(scene);
   if (!culler) return culler.error();

@@ -7,7 +7,7 @@ namespace fur::reference {
 namespace {
 
 constexpr double kUnseen = 0.01;         // of the tolerance: less than this of a step's light is left out
-constexpr double kFaint = 4;            // times the tolerance: what a faint step shows
+constexpr double kFaint = 16;           // times the tolerance: what a faint step shows
 constexpr int kMostSplits = 40;
 constexpr uint32_t kMostNodes = 1u << 22;  // of one ray: noise is not worth more
 constexpr double kSameDepth = 1e-12;     // relative: walls of neighbours
@@ -35,9 +35,10 @@ void Integrator::Collect(const Ray& ray, const Candidates& candidates) {
   const double tMax = std::min(ray.tMax, candidates.skin.t);
   for (const uint32_t index : candidates.prisms) {
     const Prism& prism = scene_.Prisms()[index];
-    const PrismView view(prism, ray);
+    PrismView view(prism, ray);
     intervals_.clear();
     view.Intervals(&intervals_);
+    if (!intervals_.empty()) view.FindNormals();
     for (const PrismView::Interval& interval : intervals_) AddSegment(prism, view, interval, ray.tMin, tMax);
   }
   std::stable_sort(segments_.begin(), segments_.end(), [](const Segment& a, const Segment& b) { return a.t0 < b.t0; });
@@ -50,7 +51,7 @@ void Integrator::AddSegment(const Prism& prism, const PrismView& view, PrismView
   if (!from.valid) from = view.At(i.h0 += inset);
   if (!to.valid) to = view.At(i.h1 -= inset);
   if (!from.valid || !to.valid) return;
-  Segment s{&prism, view, from.t, to.t, i.h0, i.h1};
+  Segment s{&prism, view, from.t, to.t, i.h0, i.h1, 0};
   if (s.t0 > s.t1) {
     std::swap(s.t0, s.t1);
     std::swap(s.h0, s.h1);
@@ -69,14 +70,19 @@ void Integrator::AddSegment(const Prism& prism, const PrismView& view, PrismView
 
 // Between two neighbouring ends of segments the same segments are crossed at once: one, or several where fur overlaps.
 void Integrator::Sweep() {
-  std::vector<Lane> lanes;
+  std::vector<Lane>& lanes = lanes_;
+  lanes.clear();
+  corners_.clear();
   size_t next = 0;
   double t = 0;
   while (through_ > opaque_ && (next < segments_.size() || !lanes.empty())) {
     if (lanes.empty()) t = segments_[next].t0;
     const double same = kSameDepth * std::max(1.0, std::abs(t));
-    for (; next < segments_.size() && segments_[next].t0 <= t + same; ++next)
+    for (; next < segments_.size() && segments_[next].t0 <= t + same; ++next) {
+      segments_[next].corners = uint32_t(corners_.size());
+      corners_.push_back(scene_.LightingOf(*segments_[next].prism));
       lanes.push_back({&segments_[next], NodeAt(segments_[next], segments_[next].h0), {}});
+    }
     double end = next < segments_.size() ? segments_[next].t0 : lanes[0].segment->t1;
     for (const Lane& lane : lanes) end = std::min(end, lane.segment->t1);
     for (Lane& lane : lanes) {
@@ -139,7 +145,7 @@ Integrator::Node Integrator::NodeAt(const Segment& s, double h) {
 
 const glm::dvec3& Integrator::Light(const Segment& s, Node& node) const {
   if (!node.lit) {
-    node.light = scene_.Shade(*s.prism, node.point, *ray_);
+    node.light = scene_.Shade(*s.prism, corners_[s.corners], node.point, *ray_);
     node.lit = true;
   }
   return node.light;
@@ -153,15 +159,15 @@ Integrator::Step Integrator::Measure(const Segment& s, Node& from, Node& middle,
   const double s0 = from.point.density, s1 = middle.point.density, s2 = to.point.density;
   step.tau = width / 6 * (s0 + 4 * s1 + s2);
   if (!(step.tau > 0)) return step;
-  const double half = std::clamp(width / 24 * (5 * s0 + 8 * s1 - s2), 0.0, step.tau);
-  const std::array<double, 3> weights{s0, 4 * s1 * std::exp(-half), s2 * std::exp(-step.tau)};
-  const double sum = weights[0] + weights[1] + weights[2], opaque = -std::expm1(-step.tau);
+  step.opacity = -std::expm1(-step.tau);
   // The midpoint rule is the other opinion.
-  const double other = width * s1, through = std::exp(-std::min(step.tau, other));
-  step.error = through * -std::expm1(-std::abs(step.tau - other));
+  step.error = std::abs(step.opacity + std::expm1(-width * s1));
   if (through_ * step.error > tolerance_ && !last) return step;  // will be halved: no light yet
+  const double half = std::clamp(width / 24 * (5 * s0 + 8 * s1 - s2), 0.0, step.tau);
+  const std::array<double, 3> weights{s0, 4 * s1 * std::exp(-half), s2 * (1 - step.opacity)};
+  const double sum = weights[0] + weights[1] + weights[2];
   // Light that hardly shows is not computed: the middle's alone where the whole step is faint.
-  const double shows = through_ * opaque;
+  const double shows = through_ * step.opacity;
   const bool faint = shows < kFaint * tolerance_ && weights[1] > sum / 2;
   const double least = sum * (faint ? 0.5 : std::min(0.3, kUnseen * tolerance_ / shows));
   double used = 0;
@@ -175,14 +181,14 @@ Integrator::Step Integrator::Measure(const Segment& s, Node& from, Node& middle,
   step.light /= used;
   if (middle.lit) {
     const glm::dvec3 off = glm::abs(step.light - middle.light);
-    step.error += opaque * std::max(off.x, std::max(off.y, off.z));
+    step.error += step.opacity * std::max(off.x, std::max(off.y, off.z));
   }
   return step;
 }
 
-void Integrator::Accept(double tau, const glm::dvec3& light) {
-  color_ += light * (through_ * -std::expm1(-tau));
-  through_ *= std::exp(-tau);
+void Integrator::Accept(double opacity, const glm::dvec3& light) {
+  color_ += light * (through_ * opacity);
+  through_ *= 1 - opacity;
 }
 
 void Integrator::Advance(const Segment& s, Node& from, Node& to, int depth) {
@@ -195,7 +201,7 @@ void Integrator::Advance(const Segment& s, Node& from, Node& to, int depth) {
     Advance(s, middle, to, depth + 1);
     return;
   }
-  Accept(step.tau, step.light);
+  Accept(step.opacity, step.light);
 }
 
 // Overlapping fur is a mixture: depths add, and each shines by its share.
@@ -237,7 +243,7 @@ void Integrator::CrossTogether(std::vector<Lane>& lanes, int depth) {
     CrossTogether(second, depth + 1);
     return;
   }
-  if (tau > 0) Accept(tau, light / tau);
+  if (tau > 0) Accept(-std::expm1(-tau), light / tau);
 }
 
 }  // namespace fur::reference

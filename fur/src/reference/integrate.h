@@ -20,7 +20,7 @@ class Integrator {
         culler_(culler),
         tolerance_(tolerance),
         opaque_(0.01 * tolerance),
-        texelsOfAStep_(tolerance < 1e-4 ? 1 : 3) {}
+        texelsOfAStep_(tolerance < 1e-4 ? 1 : 4) {}
 
   // Of one thread: keeps its working memory.
   Radiance Trace(const Ray&, const glm::dvec3& background);
@@ -31,6 +31,7 @@ class Integrator {
     const Prism* prism;
     PrismView view;
     double t0, t1, h0, h1;
+    uint32_t corners = 0;  // of corners_, once the ray is there
   };
   struct Node {
     FurPoint point;
@@ -43,7 +44,7 @@ class Integrator {
     Node from, to;
   };
   struct Step {
-    double tau = 0, error = 0;
+    double tau = 0, opacity = 0, error = 0;
     glm::dvec3 light{0};  // mean over the step, weighted by what comes through
   };
 
@@ -54,7 +55,7 @@ class Integrator {
   void CrossOne(Lane& lane);
   void CrossTogether(std::vector<Lane>& lanes, int depth);
   void Advance(const Segment&, Node& from, Node& to, int depth);
-  void Accept(double tau, const glm::dvec3& light);
+  void Accept(double opacity, const glm::dvec3& light);
   Step Measure(const Segment&, Node& from, Node& middle, Node& to, bool last);
   Node NodeAt(const Segment&, double h);
   const glm::dvec3& Light(const Segment&, Node&) const;
@@ -69,6 +70,8 @@ class Integrator {
   Candidates candidates_;
   std::vector<PrismView::Interval> intervals_;
   std::vector<Segment> segments_;
+  std::vector<Lane> lanes_;
+  std::vector<FurCorners> corners_;
   glm::dvec3 color_{0};
   double through_ = 1;  // transmittance so far
   uint32_t nodes_ = 0;

@@ -5,6 +5,7 @@
 
 #include "fur/reference.h"
 #include "texture.h"
+#include "volume.h"
 
 namespace fur::reference {
 
@@ -26,30 +27,37 @@ struct Lighting {
   explicit Lighting(const ReferenceSettings& s);
 };
 
+// What a place in the fur reads of the volume.
+struct FurPlace {
+  glm::dvec2 root{0};    // tiles
+  glm::dvec3 strand{0};  // in tangent space, not unit
+  double density = 0;    // optical depth for a unit of height, seen face-on
+};
+
 class Coat {
  public:
   Coat(const Model&, const Material&, Look);
 
-  // Optical depth for a unit of height, seen face-on. Zero where the strand would be longer than the length map says.
-  // `length`: of the welded vertices, at this place.
-  double Density(const glm::dvec2& uv, const glm::dvec2& tiles, double h, double length) const;
-  glm::dvec3 Shade(const Lighting&, const glm::dvec3& ray, const FurFrame&, const glm::dvec2& uv,
-                   const glm::dvec2& tiles, double h) const;
-  double Length() const { return params_.length; }
-  uint32_t Slices() const { return volume_.layers; }
-  // Along a way through the volume, in texels of a slice.
-  double Texels(const glm::dvec2& tiles) const;
+  FurPlace PlaceAt(const glm::dvec2& tiles, double h) const;
+  // Where a strand is longer than the length map says. `length`: of the welded vertices, at this place.
+  bool IsCut(const glm::dvec2& uv, double h, double length) const { return hasLengthMap_ && h * length > lengths_.Red(uv); }
+  // What the length map says at least between these coordinates.
+  double LeastLength(const glm::dvec2& low, const glm::dvec2& high) const;
+  glm::dvec3 Shade(const Lighting&, const glm::dvec3& ray, const FurFrame&, const glm::dvec2& uv, const FurPlace&,
+                   double h) const;
+  double Length() const { return length_; }
+  uint32_t Slices() const { return volume_.Slices(); }
+  // Between two places, in texels of a slice.
+  double Texels(const FurPlace& a, const FurPlace& b) const { return volume_.Texels(b.root - a.root); }
 
  private:
-  glm::dvec3 Filtered(const std::vector<uint8_t>& pixels, const glm::dvec2& tiles, double h) const;  // rgb, 0..1
-  glm::dvec3 Own(const glm::dvec2& tiles, double h) const;  // the strands' factor of the colour
-  glm::dvec3 Albedo(Look, const glm::dvec2& uv, const glm::dvec2& tiles, double h) const;
+  glm::dvec3 Albedo(Look, const glm::dvec2& uv, const FurPlace&, double h) const;
 
-  FurVolume volume_;
-  std::vector<uint8_t> coverage_;  // of the volume, the slices of a texel side by side
-  FurParams params_;
-  double falloff_;
-  Texture color_, length_;
+  Volume volume_;
+  FurParams params_;  // wet
+  double length_, falloff_, darkening_;
+  bool groomed_;
+  Texture color_, lengths_;
   glm::dvec3 factor_;
   bool hasLengthMap_;
 };
@@ -64,7 +72,7 @@ class Skin {
   glm::dvec3 ShadingNormal(Look, const SkinFrame&, const glm::dvec2& uv) const;
   Texture color_, normal_, specular_;
   glm::dvec3 factor_, gloss_;
-  double power_, normalScale_;
+  double power_, normalScale_, darkening_;
   bool hasNormalMap_, doubleSided_;
 };
 

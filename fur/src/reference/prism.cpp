@@ -11,9 +11,6 @@ glm::dvec3 ToRay(const Ray& ray, const glm::dvec3& v) {
   return {glm::dot(ray.right, v), glm::dot(ray.up, v), glm::dot(ray.direction, v)};
 }
 
-// Antisymmetric to the last bit, so that neighbours agree on their common wall.
-double Cross2(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - b.x * a.y; }
-
 constexpr int kMostHalvings = 52;
 constexpr int kMostSplits = 24;  // of [0, 1] in search of two roots
 // Twice a shell's area as the ray sees it, relative to the square of its extent, that is nothing but rounding.
@@ -46,22 +43,46 @@ PrismView::PrismView(const Prism& prism, const Ray& ray) : bend_(prism.bend), co
     for (const glm::dvec3& side : {q_[i] - q_[(i + 1) % 3], a_[i], c_[i]})
       extent = std::max(extent, glm::dot(side, side));
   noArea_ = kNoArea * extent;
-  for (size_t i = 0; i < 3; ++i) {
-    const size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    edges_[i] = {Cross2(q_[j], q_[k]), Cross2(q_[j], a_[k]) + Cross2(a_[j], q_[k]),
-                 Cross2(q_[j], c_[k]) + Cross2(c_[j], q_[k]), Cross2(a_[j], a_[k]),
-                 Cross2(a_[j], c_[k]) + Cross2(c_[j], a_[k]), Cross2(c_[j], c_[k])};
-  }
+  for (size_t i = 0; i < 3; ++i) edges_[i] = Across((i + 1) % 3, (i + 2) % 3, 0, 1);
 }
 
-double PrismView::Power(double h) const { return combed_ ? (bend_ == 2 ? h * h : std::pow(h, bend_)) : h; }
+void PrismView::FindNormals() {
+  for (size_t i = 0; i < 3; ++i)
+    for (int axis = 0; axis < 2; ++axis) {
+      const Edge e = Across(i, (i + 1) % 3, (axis + 1) % 3, (axis + 2) % 3);
+      for (size_t k = 0; k < e.size(); ++k) normal_[size_t(axis)][k] += e[k];
+    }
+}
 
-double PrismView::Value(const Edge& e, double h, double g) const {
-  const double plain = e[0] + h * (e[1] + h * e[3]);
-  return combed_ ? plain + g * (e[2] + h * e[4] + g * e[5]) : plain;
+// x_i y_j - x_j y_i of the corners i and j in these two axes. Antisymmetric to the last bit, so that neighbours agree on
+// their common wall.
+PrismView::Edge PrismView::Across(size_t i, size_t j, int x, int y) const {
+  const auto cross = [&](const glm::dvec3& a, const glm::dvec3& b) { return a[x] * b[y] - b[x] * a[y]; };
+  if (!combed_)
+    return {cross(q_[i], q_[j]), cross(q_[i], a_[j]) + cross(a_[i], q_[j]), 0, cross(a_[i], a_[j]), 0, 0};
+  return {cross(q_[i], q_[j]), cross(q_[i], a_[j]) + cross(a_[i], q_[j]), cross(q_[i], c_[j]) + cross(c_[i], q_[j]),
+          cross(a_[i], a_[j]), cross(a_[i], c_[j]) + cross(c_[i], a_[j]), cross(c_[i], c_[j])};
 }
 
 PrismView::Point PrismView::At(double h) const {
+  const double g = Power(h);
+  Point point;
+  const std::array<double, 3> f{Value(edges_[0], h, g), Value(edges_[1], h, g), Value(edges_[2], h, g)};
+  const double d = f[0] + f[1] + f[2];
+  if (!(std::abs(d) > noArea_)) return point;
+  const double scale = 1 / d;
+  for (size_t i = 0; i < 3; ++i) {
+    point.b[int(i)] = f[i] * scale;
+    point.t += point.b[int(i)] * (q_[i].z + a_[i].z * h + (combed_ ? c_[i].z * g : 0));
+  }
+  // d is the third component of the shell's normal.
+  const double x = Value(normal_[0], h, g), y = Value(normal_[1], h, g);
+  point.secant = std::sqrt(x * x + y * y + d * d) * std::abs(scale);
+  point.valid = std::isfinite(point.t) && std::isfinite(point.secant);
+  return point;
+}
+
+double PrismView::Slope(double h) const {
   const double g = Power(h);
   // dg/dh, with 0 at the root for bent fur.
   const double dg = combed_ ? (h > 0 ? bend_ * g / h : 0) : 1;
@@ -72,23 +93,15 @@ PrismView::Point PrismView::At(double h) const {
     df[i] = e[1] + 2 * h * e[3];
     if (combed_) df[i] += g * e[4] + dg * (e[2] + h * e[4] + 2 * g * e[5]);
   }
-  Point point;
   const double d = f[0] + f[1] + f[2], dd = df[0] + df[1] + df[2];
-  if (!(std::abs(d) > noArea_)) return point;
-  std::array<glm::dvec3, 3> x;
+  if (!(std::abs(d) > noArea_)) return 0;
+  double slope = 0;
   for (size_t i = 0; i < 3; ++i) {
-    const auto n = int(i);
-    x[i] = combed_ ? q_[i] + a_[i] * h + c_[i] * g : q_[i] + a_[i] * h;
     const double b = f[i] / d, db = (df[i] - b * dd) / d;
-    const double dz = combed_ ? a_[i].z + c_[i].z * dg : a_[i].z;
-    point.b[n] = b;
-    point.t += b * x[i].z;
-    point.slope += db * x[i].z + b * dz;
+    const double z = q_[i].z + a_[i].z * h + (combed_ ? c_[i].z * g : 0), dz = a_[i].z + (combed_ ? c_[i].z * dg : 0);
+    slope += db * z + b * dz;
   }
-  const glm::dvec3 normal = glm::cross(x[1] - x[0], x[2] - x[0]);
-  point.secant = glm::length(normal) / std::abs(d);
-  point.valid = std::isfinite(point.t) && std::isfinite(point.slope) && std::isfinite(point.secant);
-  return point;
+  return slope;
 }
 
 // The prism's picture along the ray must hold the ray. Bent fur leaves the hull of its two ends.
@@ -172,15 +185,15 @@ void PrismView::AddMonotone(double h0, double h1, std::vector<Interval>* out) co
   constexpr int kProbes = 4;
   const double inset = (h1 - h0) * 1e-9;
   double from = h0, previous = h0 + inset;
-  bool rising = At(previous).slope > 0;
+  bool rising = Slope(previous) > 0;
   for (int i = 1; i <= kProbes; ++i) {
     const double probe = i == kProbes ? h1 - inset : h0 + (h1 - h0) * i / kProbes;
-    const bool rises = At(probe).slope > 0;
+    const bool rises = Slope(probe) > 0;
     if (rises != rising) {
       double low = previous, high = probe;
       for (int k = 0; k < kMostHalvings; ++k) {
         const double middle = (low + high) / 2;
-        ((At(middle).slope > 0) == rising ? low : high) = middle;
+        ((Slope(middle) > 0) == rising ? low : high) = middle;
       }
       out->push_back({from, low});
       from = high;
@@ -210,7 +223,7 @@ double PrismView::Solve(double t, double h0, double h1) const {
   for (int i = 0; i < 2 * kMostHalvings; ++i) {
     const Point point = At(h);
     ((point.t < t) == rising ? low : high) = h;
-    double next = h - (point.t - t) / point.slope;
+    double next = h - (point.t - t) / Slope(h);
     if (!(next > low && next < high)) next = (low + high) / 2;
     if (std::abs(next - h) <= 1e-15 || next <= low || next >= high) return next;
     h = next;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -29,16 +30,18 @@ struct Prism {
 class PrismView {
  public:
   PrismView(const Prism&, const Ray&);
+  // Before secants are asked for: most prisms that a ray comes near are missed.
+  void FindNormals();
 
   // What is known where the ray meets the shell at height h.
   struct Point {
     glm::dvec3 b{0};     // barycentrics
     double t = 0;
-    double slope = 0;    // dt/dh
     double secant = 1;   // 1 / |m.w|, m the unit normal of the shell
     bool valid = false;  // false: the ray lies in the shell's plane, or there is none
   };
   Point At(double h) const;
+  double Slope(double h) const;  // dt/dh; 0 where no point is valid
 
   // Intervals of h in [0, 1], ascending, within which the ray is inside the prism and t is monotone.
   struct Interval {
@@ -60,17 +63,22 @@ class PrismView {
       if (count < h.size()) h[count++] = value;
     }
   };
-  double Value(const Edge&, double h, double g) const;
+  Edge Across(size_t i, size_t j, int x, int y) const;
+  double Value(const Edge& e, double h, double g) const {
+    const double plain = e[0] + h * (e[1] + h * e[3]);
+    return combed_ ? plain + g * (e[2] + h * e[4] + g * e[5]) : plain;
+  }
   void AddRoots(const Edge&, Cuts*) const;
   void Isolate(const Edge&, double h0, double h1, int depth, Cuts*) const;
   double Side(size_t edge, double h, double g) const;
   bool Inside(double h) const;
   bool MayMeet() const;
   void AddMonotone(double h0, double h1, std::vector<Interval>*) const;
-  double Power(double h) const;
+  double Power(double h) const { return combed_ ? (bend_ == 2 ? h * h : std::pow(h, bend_)) : h; }
 
   std::array<glm::dvec3, 3> q_, a_, c_;
   std::array<Edge, 3> edges_;
+  std::array<Edge, 2> normal_{};  // of the shell, not unit, by two of its components
   double bend_, noArea_ = 0;
   bool combed_;
 };

@@ -16,6 +16,11 @@ T Mix(const glm::dvec3& b, const T& x, const T& y, const T& z) {
   return x * b.x + y * b.y + z * b.z;
 }
 
+template <class T>
+T Mix(const glm::dvec3& b, const std::array<T, 3>& v) {
+  return Mix(b, v[0], v[1], v[2]);
+}
+
 double Cross2(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - b.x * a.y; }
 
 }  // namespace
@@ -54,12 +59,13 @@ FurScene::FurScene(const Model& model, std::span<const glm::dmat4> placements, c
     coats_.push_back(furred ? std::make_unique<Coat>(model, m, s.look) : nullptr);
     skins_.push_back(std::make_unique<Skin>(model, m, s.look));
   }
-  for (const FurMesh& mesh : meshes_) corners_.push_back(CornersOf(mesh));
+  for (size_t i = 0; i < meshes_.size(); ++i)
+    corners_.push_back(CornersOf(meshes_[i], coats_[model.primitives[i].material].get()));
   for (const glm::dmat4& placement : placements)
     for (const fur::Part& part : model.parts) AddPart(part, placement);
 }
 
-std::vector<FurScene::Corners> FurScene::CornersOf(const FurMesh& mesh) {
+std::vector<FurScene::Corners> FurScene::CornersOf(const FurMesh& mesh, const Coat* coat) {
   std::vector<Corners> corners(mesh.indices.size() / 3);
   for (size_t i = 0; i < corners.size() * 3; ++i) {
     const FurVertex& v = mesh.vertices[mesh.indices[i]];
@@ -67,6 +73,11 @@ std::vector<FurScene::Corners> FurScene::CornersOf(const FurMesh& mesh) {
     c.uv[i % 3] = {v.direction.w, v.normal.w};
     c.tiles[i % 3] = glm::dvec2(v.furUv);
     c.length[i % 3] = double(v.position.w);
+  }
+  for (Corners& c : corners) {
+    const auto [x, y, z] = c.uv;
+    const double least = coat ? coat->LeastLength(glm::min(x, glm::min(y, z)), glm::max(x, glm::max(y, z))) : 0;
+    c.uncut = least / std::max({c.length[0], c.length[1], c.length[2], 1e-9});
   }
   return corners;
 }
@@ -122,50 +133,53 @@ void FurScene::AddPrisms(const Part& part, const glm::dmat4& toWorld) {
   }
 }
 
-std::array<const FurVertex*, 3> FurScene::Vertices(const Prism& prism) const {
-  const FurMesh& mesh = meshes_[parts_[prism.part].primitive];
-  const uint32_t* i = &mesh.indices[size_t(prism.triangle) * 3];
-  return {&mesh.vertices[i[0]], &mesh.vertices[i[1]], &mesh.vertices[i[2]]};
-}
-
 uint32_t FurScene::Slices(const Prism& prism) const { return coats_[parts_[prism.part].material]->Slices(); }
 
 FurPoint FurScene::Read(const Prism& prism, const PrismView& view, double h) const {
   const PrismView::Point at = view.At(h);
-  FurPoint point{.h = h, .t = at.t, .b = at.b};
+  FurPoint point;
+  point.h = h;
+  point.t = at.t;
   if (!at.valid) return point;
+  point.b = at.b;
   const Part& part = parts_[prism.part];
   const Corners& c = corners_[part.primitive][prism.triangle];
-  point.uv = Mix(at.b, c.uv[0], c.uv[1], c.uv[2]);
-  point.tiles = Mix(at.b, c.tiles[0], c.tiles[1], c.tiles[2]);
-  const double length = Mix(at.b, c.length[0], c.length[1], c.length[2]);
+  const Coat& coat = *coats_[part.material];
+  point.uv = Mix(at.b, c.uv);
+  point.place = coat.PlaceAt(Mix(at.b, c.tiles), h);
   // docs/accuracy.md: |dh| for sheets; |grad h| ds = |dh| / |m.w| for a volume.
-  const double density = coats_[part.material]->Density(point.uv, point.tiles, h, length);
-  point.density = density * (semantics_ == Semantics::Volume ? at.secant : 1);
+  const bool cut = h > c.uncut && coat.IsCut(point.uv, h, Mix(at.b, c.length));
+  if (!cut) point.density = point.place.density * (semantics_ == Semantics::Volume ? at.secant : 1);
   return point;
 }
 
 double FurScene::Texels(const Prism& prism, const FurPoint& from, const FurPoint& to) const {
-  return coats_[parts_[prism.part].material]->Texels(to.tiles - from.tiles);
+  return coats_[parts_[prism.part].material]->Texels(from.place, to.place);
 }
 
-glm::dvec3 FurScene::Shade(const Prism& prism, const FurPoint& point, const Ray& ray) const {
-  if (furnace_) return *furnace_;
+FurCorners FurScene::LightingOf(const Prism& prism) const {
   const Part& part = parts_[prism.part];
-  const auto [x, y, z] = Vertices(prism);
+  const FurMesh& mesh = meshes_[part.primitive];
+  FurCorners c;
+  for (size_t i = 0; i < 3; ++i) {
+    const FurVertex& v = mesh.vertices[mesh.indices[size_t(prism.triangle) * 3 + i]];
+    c.direction[i] = part.linear * glm::dvec3(v.direction);
+    c.lean[i] = part.linear * OffsetOf(v, part.sway);
+    c.normal[i] = part.normalToWorld * glm::dvec3(v.normal);
+    c.tangent[i] = part.linear * glm::dvec3(v.tangent);
+    c.handedness[i] = double(v.tangent.w) * part.Handedness();
+  }
+  return c;
+}
+
+glm::dvec3 FurScene::Shade(const Prism& prism, const FurCorners& c, const FurPoint& point, const Ray& ray) const {
+  if (furnace_) return *furnace_;
   const glm::dvec3& b = point.b;
   // The axis of the strand at this height: dX/dh.
   const double bend = prism.bend == 1 ? 1 : prism.bend * std::pow(point.h, prism.bend - 1);
-  const auto mixed = [&](const glm::vec4& i, const glm::vec4& j, const glm::vec4& k) {
-    return Mix(b, glm::dvec3(i), glm::dvec3(j), glm::dvec3(k));
-  };
-  const glm::dvec3 lean = Mix(b, OffsetOf(*x, part.sway), OffsetOf(*y, part.sway), OffsetOf(*z, part.sway));
-  const FurFrame frame{part.linear * (mixed(x->direction, y->direction, z->direction) + lean * bend),
-                       part.normalToWorld * mixed(x->normal, y->normal, z->normal),
-                       part.linear * mixed(x->tangent, y->tangent, z->tangent),
-                       (b.x * double(x->tangent.w) + b.y * double(y->tangent.w) + b.z * double(z->tangent.w)) *
-                           part.Handedness()};
-  return coats_[part.material]->Shade(lighting_, ray.direction, frame, point.uv, point.tiles, point.h);
+  const FurFrame frame{Mix(b, c.direction) + Mix(b, c.lean) * bend, Mix(b, c.normal), Mix(b, c.tangent),
+                       Mix(b, c.handedness)};
+  return coats_[parts_[prism.part].material]->Shade(lighting_, ray.direction, frame, point.uv, point.place, point.h);
 }
 
 glm::dvec3 FurScene::Shade(const SkinHit& hit, const Ray& ray) const {

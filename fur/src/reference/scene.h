@@ -36,7 +36,14 @@ struct FurPoint {
   double h = 0, t = 0;
   double density = 0;  // d tau / d h along this ray
   glm::dvec3 b{0};
-  glm::dvec2 uv{0}, tiles{0};  // of the model's maps, of the volume
+  glm::dvec2 uv{0};     // of the model's maps
+  FurPlace place;
+};
+
+// What it takes to light a prism's fur: world axes, at the three corners.
+struct FurCorners {
+  std::array<glm::dvec3, 3> direction, lean, normal, tangent;
+  std::array<double, 3> handedness;
 };
 
 class FurScene {
@@ -47,7 +54,8 @@ class FurScene {
   const std::vector<SkinTriangle>& SkinTriangles() const { return skin_; }
 
   FurPoint Read(const Prism&, const PrismView&, double h) const;
-  glm::dvec3 Shade(const Prism&, const FurPoint&, const Ray&) const;
+  FurCorners LightingOf(const Prism&) const;
+  glm::dvec3 Shade(const Prism&, const FurCorners&, const FurPoint&, const Ray&) const;
   glm::dvec3 Shade(const SkinHit&, const Ray&) const;
   uint32_t Slices(const Prism&) const;
   // How far two points of a prism are apart, in texels of the volume.
@@ -68,9 +76,9 @@ class FurScene {
   struct Corners {
     std::array<glm::dvec2, 3> uv, tiles;
     std::array<double, 3> length;
+    double uncut = 0;  // no strand is cut by the length map below this height
   };
-  static std::vector<Corners> CornersOf(const FurMesh&);
-  std::array<const FurVertex*, 3> Vertices(const Prism&) const;
+  static std::vector<Corners> CornersOf(const FurMesh&, const Coat*);
   bool Furred(const Part& part) const { return coats_[part.material] != nullptr; }
 
   const Model& model_;

@@ -34,4 +34,14 @@ double Texture::Red(const glm::dvec2& uv) const {
   return glm::mix(low, high, v.fraction);
 }
 
+double Texture::LeastRed(const glm::dvec2& low, const glm::dvec2& high) const {
+  constexpr double kMostTexels = 4096;
+  const glm::dvec2 size(image_.width, image_.height), first = glm::floor(low * size - 1.0), last = glm::ceil(high * size + 1.0);
+  if (!((last.x - first.x) * (last.y - first.y) <= kMostTexels)) return 0;
+  double least = 1;
+  for (double y = first.y; y <= last.y; ++y)
+    for (double x = first.x; x <= last.x; ++x) least = std::min(least, Red((glm::dvec2(x, y) + 0.5) / size));
+  return least;
+}
+
 }  // namespace fur::reference

@@ -17,6 +17,8 @@ class Texture {
   void SetWrap(bool wrapU, bool wrapV);
   glm::dvec3 Rgb(const glm::dvec2& uv) const;
   double Red(const glm::dvec2& uv) const;
+  // No more than any Red between these coordinates; 0 where they are too far apart to look.
+  double LeastRed(const glm::dvec2& low, const glm::dvec2& high) const;
 
  private:
   Image image_;
@@ -30,15 +32,13 @@ struct Cell {
   double fraction;
 };
 inline Cell CellAt(double coordinate, uint32_t size, bool wrap) {
-  const auto n = int64_t(size);
   // A coordinate is small; the cast is much cheaper than std::floor on any x86-64.
   double inside = wrap ? coordinate - double(int64_t(coordinate)) : std::clamp(coordinate, 0.0, 1.0);
   if (inside < 0) inside += 1;
-  const double x = inside * double(size) + 0.5;  // texel i - 1 begins at i
-  const auto first = int64_t(x);
-  const int64_t before = wrap ? n - 1 : 0, after = wrap ? 0 : n - 1;
-  const auto x0 = first > 0 ? first - 1 : before;
-  return {uint32_t(std::min(x0, n - 1)), uint32_t(first < n ? first : after), x - double(first)};
+  const double x = inside * size + 0.5;  // texel i - 1 begins at i
+  const auto first = uint32_t(x), last = size - 1;
+  const uint32_t x0 = first > 0 ? std::min(first - 1, last) : (wrap ? last : 0);
+  return {x0, first < size ? first : (wrap ? 0 : last), x - first};
 }
 
 }  // namespace fur::reference
