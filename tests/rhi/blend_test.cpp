@@ -87,7 +87,8 @@ class BlendTest : public RhiTest {
   }
   void ExpectAll() {
     EXPECT_TRUE(Matches(
-        gpu.Read(target), [this](uint32_t x, auto) { return x < cases.size() ? Oracle(cases[x]) : Rgba8{kDest}; }, 1));
+        gpu.Read(target), [this](uint32_t x, auto) { return x < cases.size() ? Oracle(cases[x]) : Rgba8{kDest}; },
+        Within("blend_rounding")));
   }
   Target target;
   std::vector<RenderTargetBlend> cases;
@@ -160,7 +161,7 @@ TEST_P(BlendTest, SecondSourceFactors) {
         expected[c] = ToUnorm8(!asDest ? source[c] * f : c == 3 ? d * f : source[c] + d * f);
       }
       EXPECT_TRUE(Matches(
-          gpu.Read(target), [&](auto, auto) { return expected; }, 1))
+          gpu.Read(target), [&](auto, auto) { return expected; }, Within("blend_rounding")))
           << int(k.color) << asDest;
     }
 }

@@ -90,7 +90,7 @@ TEST_P(DeviceTest, TwoDevicesAreIndependent) {
 TEST_P(DeviceTest, UnsupportedGivesAStatusAndAMessage) {
   TestSink own;
   own.Expect(MsgCode::DeviceUnavailable, "no such adapter");
-  DeviceDesc desc = TestDeviceDesc(&own);
+  DeviceDesc desc = TestDeviceDesc(GetParam(), &own);
   desc.adapter = "no adapter has this name";
   Ref<IDevice> none;
   EXPECT_EQ(CreateDevice(GetParam(), desc, &none), Status::Unsupported);
@@ -113,7 +113,7 @@ TEST_P(DeviceTest, AnyOrderOfDestruction) {
   TestSink own;
   for (const bool deviceFirst : {true, false}) {
     Ref<IDevice> d;
-    ASSERT_EQ(CreateDevice(GetParam(), TestDeviceDesc(&own), &d), Status::Ok) << own.Dump();
+    ASSERT_EQ(CreateDevice(GetParam(), TestDeviceDesc(GetParam(), &own), &d), Status::Ok) << own.Dump();
     Ref<ITexture> texture;
     Ref<IShaderResourceView> view;
     Ref<IRenderTargetView> target;

@@ -138,7 +138,7 @@ TEST_P(InputTest, VertexFormats) {
       [](auto, auto) {
         return Rgba8{51, 102, 128, 255};
       },
-      1));
+      Within("half_to_unorm")));
 }
 
 // Attributes for each instance, from slots of their own, stepping every instance and every second one; the start

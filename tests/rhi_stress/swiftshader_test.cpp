@@ -108,7 +108,7 @@ TEST_F(SwiftShaderTest, ResolvesSamples) {
       [](uint32_t x, uint32_t) {
         return Rgba8{uint8_t(x < 5 ? 255 : x == 5 ? 128 : 0), 0, 0, 255};
       },
-      1));
+      Within("resolve_average")));
 }
 
 TEST_F(SwiftShaderTest, DrawsFromVertexBuffers) {

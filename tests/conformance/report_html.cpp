@@ -1,0 +1,4 @@
+#include "report.h"
+namespace conformance {
+std::string Html(const Run&) { return "<!doctype html>\n"; }
+}  // namespace conformance
