@@ -76,18 +76,20 @@ double UlpDistance(float actual, float expected, double floor) {
   return std::abs(double(actual) - double(expected)) / ulp;
 }
 
-Difference Compare(const Image& a, const Image& b) {
-  Difference d;
-  d.sameShape = SameShape(a, b);
-  if (!d.sameShape) return d;
+Outcome Measure(const Image& a, const Image& b, double limit) {
+  Outcome o{.pixels = uint64_t(a.width) * a.height, .sameShape = SameShape(a, b)};
+  if (!o.sameShape) return o;
   for (uint32_t y = 0; y < a.height; ++y)
     for (uint32_t x = 0; x < a.width; ++x) {
       const size_t at = (size_t(y) * a.width + x) * a.texelBytes;
       if (std::equal(&a.bytes[at], &a.bytes[at] + a.texelBytes, &b.bytes[at])) continue;
-      if (d.pixels++ == 0) d.x = x, d.y = y;
-      d.worst = std::max(d.worst, TexelDistance(&a.bytes[at], &b.bytes[at], a.texelBytes, a.component));
+      const double distance = TexelDistance(&a.bytes[at], &b.bytes[at], a.texelBytes, a.component);
+      ++o.differing;
+      o.worst = std::max(o.worst, distance);
+      if (distance <= limit && limit > 0) continue;  // other bytes that mean the same are a difference, too
+      if (o.beyond++ == 0) o.x = x, o.y = y;
     }
-  return d;
+  return o;
 }
 
 testing::AssertionResult Report(const Outcome& outcome, const Tolerance& tolerance, const Image& result,
@@ -108,21 +110,14 @@ testing::AssertionResult SameImage(const Image& result, const Image& reference, 
     return testing::AssertionFailure() << "pictures of different shape: " << result.width << " x " << result.height
                                        << " x " << result.texelBytes << " and " << reference.width << " x "
                                        << reference.height << " x " << reference.texelBytes;
-  Outcome outcome{.pixels = uint64_t(result.width) * result.height};
+  if (TheRecorder().ComparesBackends() && tolerance.limit == 0) return TheRecorder().Backends(result, reference);
+  const Outcome outcome = Measure(result, reference, tolerance.limit);
   std::ostringstream first;
-  for (uint32_t y = 0; y < result.height; ++y)
-    for (uint32_t x = 0; x < result.width; ++x) {
-      const size_t at = (size_t(y) * result.width + x) * result.texelBytes;
-      const uint8_t *a = &result.bytes[at], *b = &reference.bytes[at];
-      if (std::equal(a, a + result.texelBytes, b)) continue;
-      const double distance = TexelDistance(a, b, result.texelBytes, result.component);
-      ++outcome.differing;
-      outcome.worst = std::max(outcome.worst, distance);
-      if (distance <= tolerance.limit && tolerance.limit > 0) continue;
-      if (outcome.beyond++ > 0) continue;
-      first << " the first at " << x << ", " << y << ":";
-      for (uint32_t i = 0; i < result.texelBytes; ++i) first << ' ' << +a[i] << '/' << +b[i];
-    }
+  if (outcome.beyond > 0) {
+    const size_t at = (size_t(outcome.y) * result.width + outcome.x) * result.texelBytes;
+    first << " the first at " << outcome.x << ", " << outcome.y << ":";
+    for (uint32_t i = 0; i < result.texelBytes; ++i) first << ' ' << +result.bytes[at + i] << '/' << +reference.bytes[at + i];
+  }
   return Report(outcome, tolerance, result, reference, first.str());
 }
 

@@ -40,15 +40,18 @@ struct Image {
 double Distance(double actual, double expected);
 double UlpDistance(float actual, float expected, double floor = 0);
 
-struct Difference {
-  uint64_t pixels = 0;    // that differ in any byte
-  uint32_t x = 0, y = 0;  // the first of them
-  double worst = 0;       // the greatest distance of two components; infinite for packed ones that differ
+// What a comparison of pictures came to.
+struct Outcome {
+  uint64_t pixels = 0, differing = 0, beyond = 0;  // all; not equal; farther than the limit
+  double worst = 0;                                // the greatest distance of two components; infinite for packed ones
+  uint32_t x = 0, y = 0;                           // the first pixel beyond
   bool sameShape = true;
+  bool Ok(const Tolerance& t) const { return sameShape && beyond <= t.pixels; }
 };
-Difference Compare(const Image& result, const Image& reference);
+Outcome Measure(const Image& result, const Image& reference, double limit = 0);
 
-// Succeeds when the pictures agree in every byte, or within the tolerance.
+// Succeeds when the pictures agree in every byte, or within the tolerance. In a case of both backends, exact means: as
+// Vulkan and GL have to on these drivers (ParityLimits).
 testing::AssertionResult SameImage(const Image& result, const Image& reference, const Tolerance& = kExact);
 
 // One number against its oracle, in the tolerance's unit.
@@ -81,16 +84,11 @@ double Distance(const std::array<T, N>& actual, const std::array<T, N>& expected
   return worst;
 }
 
-// What a comparison of pictures came to.
-struct Outcome {
-  uint64_t pixels = 0, differing = 0, beyond = 0;  // all; not equal; farther than the limit
-  double worst = 0;
-  bool Ok(const Tolerance& t) const { return beyond <= t.pixels; }
-};
-
 // Tells the recorder, and makes the sentence.
 testing::AssertionResult Report(const Outcome&, const Tolerance&, const Image& result, const Image& reference,
                                 const std::string& firstWrong);
+
+inline constexpr uint64_t kListed = 6;  // wrong pixels, in words
 
 // Compares every pixel with oracle(x, y), an array of the texel's components. Lists the first pixels that are wrong.
 template <class Oracle>
@@ -111,7 +109,7 @@ testing::AssertionResult Matches(const Image& image, Oracle oracle, const Tolera
       outcome.worst = std::max(outcome.worst, distance);
       if (distance > 0) ++outcome.differing;
       if (distance <= tolerance.limit) continue;
-      if (++outcome.beyond <= 6)
+      if (++outcome.beyond <= kListed)
         list << "\n  pixel " << x << ", " << y << " is " << Text(actual) << ", expected " << Text(expected);
     }
   return Report(outcome, tolerance, result, reference, list.str());

@@ -23,8 +23,8 @@ TEST(Comparison, OneByteOfOnePixelIsCaught) {
   Image b = Gray(7, 5);
   b.bytes[(3 * 7 + 2) * 4 + 1] = 129;
   EXPECT_FALSE(SameImage(Gray(7, 5), b));
-  const Difference d = Compare(Gray(7, 5), b);
-  EXPECT_EQ(d.pixels, 1u);
+  const Outcome d = Measure(Gray(7, 5), b);
+  EXPECT_EQ(d.differing, 1u);
   EXPECT_EQ(d.x, 2u);
   EXPECT_EQ(d.y, 3u);
   EXPECT_FALSE(Matches(b, [](uint32_t, uint32_t) { return Rgba8{128, 128, 128, 128}; }));

@@ -55,35 +55,62 @@ void Recorder::Measured(const Tolerance& tolerance, double distance) {
   ++m.comparisons;
 }
 
+namespace {
+
+void AddTo(Parity* parity, const Image& gl, const Image& vulkan) {
+  const Outcome o = Measure(gl, vulkan, parity->limit->steps);
+  ++parity->pictures;
+  parity->pixels += o.pixels;
+  parity->differing += o.differing;
+  parity->beyond += o.beyond;
+  parity->worst = o.sameShape ? std::max(parity->worst, o.worst) : INFINITY;
+  if (o.differing == 0 || parity->shown) return;
+  parity->shown = Compared{.outcome = o, .tolerance = "Vulkan against GL", .limit = parity->limit->steps, .ok = false,
+                           .result = gl, .reference = vulkan};
+}
+
+// What is wrong with so many pixels, or "".
+std::string ProblemOf(const Parity& p) {
+  const ParityLimit& limit = *p.limit;
+  const double pixels = double(p.pixels);
+  const bool shapes = std::isinf(p.worst) && p.differing == 0;
+  if (!limit.Compared()) return "";
+  if (!shapes && double(p.differing) <= limit.differing * pixels && double(p.beyond) <= limit.beyond * pixels) return "";
+  std::ostringstream text;
+  text << "GL reads other bytes back than Vulkan: " << (shapes ? "pictures of other shapes, " : "") << p.differing << " of "
+       << p.pixels << " pixels in " << p.pictures << " pictures differ (allowed: " << limit.differing * 100 << " %), "
+       << p.beyond << " by more than " << limit.steps << " (allowed: " << limit.beyond * 100 << " %), by up to " << p.worst;
+  return text.str();
+}
+
+}  // namespace
+
+testing::AssertionResult Recorder::Backends(const Image& gl, const Image& vulkan) {
+  Parity now{.limit = &ParityLimitOf(case_.name.Base(), driver_)};
+  AddTo(&now, gl, vulkan);
+  const std::string problem = ProblemOf(now);
+  Add({Measure(gl, vulkan, now.limit->steps), "Vulkan against GL", Unit::Lsb, now.limit->steps, 0, problem.empty(), gl, vulkan});
+  if (!case_.parity) case_.parity = Parity{.limit = now.limit};
+  Parity& all = *case_.parity;
+  all.pictures += now.pictures;
+  all.pixels += now.pixels;
+  all.differing += now.differing;
+  all.beyond += now.beyond;
+  all.worst = std::max(all.worst, now.worst);
+  if (problem.empty()) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << problem;
+}
+
 Parity CompareReadBacks(const CaseRecord& vulkan, const CaseRecord& gl, const std::string& driver) {
   Parity parity{.limit = &ParityLimitOf(gl.name.Base(), driver)};
+  if (!parity.limit->Compared()) return parity;
   if (vulkan.readBacks.size() != gl.readBacks.size()) {
     parity.problem = "Vulkan read " + std::to_string(vulkan.readBacks.size()) + " pictures and buffers back, GL " +
                      std::to_string(gl.readBacks.size());
-    return std::isinf(parity.limit->limit) ? Parity{.limit = parity.limit} : parity;
+    return parity;
   }
-  for (size_t i = 0; i < gl.readBacks.size(); ++i) {
-    const Image &a = gl.readBacks[i], &b = vulkan.readBacks[i];
-    const Difference d = Compare(a, b);
-    ++parity.pictures;
-    parity.pixels += uint64_t(a.width) * a.height;
-    parity.differing += d.pixels;
-    parity.worst = d.sameShape ? std::max(parity.worst, d.worst) : INFINITY;
-    if ((d.pixels == 0 && d.sameShape) || parity.shown || !d.sameShape) continue;
-    parity.shown = Compared{.outcome = {uint64_t(a.width) * a.height, d.pixels, d.pixels, d.worst},
-                            .tolerance = "Vulkan against GL",
-                            .limit = parity.limit->limit,
-                            .ok = false,
-                            .result = a,
-                            .reference = b};
-  }
-  const double share = parity.pixels ? double(parity.differing) / double(parity.pixels) : 0;
-  if (parity.worst <= parity.limit->limit && share <= parity.limit->share) return parity;
-  std::ostringstream text;
-  text << "GL reads other bytes back than Vulkan: " << parity.differing << " of " << parity.pixels << " pixels in "
-       << parity.pictures << " pictures, by up to " << parity.worst << " (allowed: " << parity.limit->limit << ", on "
-       << parity.limit->share * 100 << " % of the pixels)";
-  parity.problem = text.str();
+  for (size_t i = 0; i < gl.readBacks.size(); ++i) AddTo(&parity, gl.readBacks[i], vulkan.readBacks[i]);
+  parity.problem = ProblemOf(parity);
   return parity;
 }
 

@@ -24,7 +24,7 @@ struct Compared {
 
 // Vulkan against GL, over all that a case read back on both.
 struct Parity {
-  uint64_t pictures = 0, pixels = 0, differing = 0;
+  uint64_t pictures = 0, pixels = 0, differing = 0, beyond = 0;
   double worst = 0;
   const ParityLimit* limit = nullptr;
   std::optional<Compared> shown;  // the first that differs
@@ -37,7 +37,7 @@ struct CaseRecord {
   double worst = 0;              // by tolerance unit of the comparison it is from
   std::vector<Compared> kept;    // those that failed (four at most), or the one that is farthest off
   std::vector<Image> readBacks;  // in the order of reading
-  std::optional<Parity> parity;  // of the second backend's case
+  std::optional<Parity> parity;  // of the second backend's case, and of cases of both
 };
 
 struct MeasuredTolerance {
@@ -52,9 +52,13 @@ class Recorder {
   CaseRecord End(bool skipped);
   const std::string& Driver() const { return driver_; }  // "vulkan:lavapipe"; "" while no case runs
   bool Active() const { return active_; }
+  const CaseName& Running() const { return case_.name; }
 
   void ReadBack(const Image&);
   void Add(Compared);
+  // Within a case of both backends: GL's picture against Vulkan's.
+  bool ComparesBackends() const { return active_ && case_.name.backend == "both"; }
+  testing::AssertionResult Backends(const Image& gl, const Image& vulkan);
   void Measured(const Tolerance&, double distance);
   // By tolerance name and driver, since the start.
   const std::map<std::pair<std::string, std::string>, MeasuredTolerance>& AllMeasured() const { return measured_; }

@@ -18,9 +18,10 @@ ordered_json Of(const DriverInfo& d) {
 
 ordered_json Of(const Parity& p) {
   return {{"pictures", p.pictures},    {"pixels", p.pixels},
-          {"differing", p.differing},  {"worst", Number(p.worst)},
-          {"limit", Number(p.limit->limit)}, {"share", p.limit->share},
-          {"cause", p.limit->cause}};
+          {"differing", p.differing},  {"beyond", p.beyond},
+          {"worst", Number(p.worst)},  {"compared", p.limit->Compared()},
+          {"steps", p.limit->steps},   {"differing_limit", p.limit->differing},
+          {"beyond_limit", p.limit->beyond}, {"cause", p.limit->cause}};
 }
 
 ordered_json Of(const CaseResult& c) {

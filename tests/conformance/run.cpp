@@ -45,7 +45,7 @@ class Listener final : public testing::EmptyTestEventListener {
     if (skipped)
       if (const std::string problem = SkipProblem(current_.name.Base(), current_.driver, current_.skip); !problem.empty())
         ADD_FAILURE() << problem;
-    if (record.parity && !skipped && !record.parity->problem.empty()) ADD_FAILURE() << record.parity->problem;
+    if (record.parity && !record.parity->problem.empty()) ADD_FAILURE() << record.parity->problem;
     const bool failed = info.result()->Failed();
     current_.result = failed ? Result::Failed : skipped ? Result::Skipped : Result::Passed;
     current_.seconds = double(info.result()->elapsed_time()) / 1000;

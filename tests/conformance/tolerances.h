@@ -25,20 +25,24 @@ struct Tolerance {
 inline constexpr Tolerance kExact{"exact", "*", "*", Unit::Lsb, 0, 0, 0, 0, ""};
 
 std::span<const Tolerance> Tolerances();
-// The row of this name for the driver that the running case is for. Throws std::runtime_error for an unknown name.
+// The row of this name for the driver that the running case is for; kExact where there is none for that driver. Throws
+// std::runtime_error for an unknown name, and in a case that the row is not for.
 const Tolerance& Within(const std::string& name);
 
 // Pictures that Vulkan and GL read back with other bytes: for each, which cases, on which drivers, how far and why.
 struct ParityLimit {
-  const char* cases;     // glob of area.case/parameter
-  const char* drivers;   // glob of the drivers beside the required one
-  double limit;          // steps of a component (ULP of floats); infinite: it is not compared at all
-  double share;          // of the pixels that may differ, 0..1
-  double measured, measuredShare;
+  const char* cases;    // glob of area.case/parameter
+  const char* drivers;  // glob of the drivers beside the required one
+  double steps;         // of a component (ULP of floats)
+  double differing;     // share of the pixels that may differ, 0..1
+  double beyond;        // share of the pixels that may be farther off than `steps`, 0..1; kNotCompared: anything goes
+  double measuredSteps, measuredDiffering, measuredBeyond;  // of the case that is farthest off
   const char* cause;
+  static constexpr double kNotCompared = 2;
+  bool Compared() const { return beyond < kNotCompared; }
 };
 std::span<const ParityLimit> ParityLimits();
-// The first row that fits; one of limit 0 where none does.
+// The first row that fits; no difference at all where none does.
 const ParityLimit& ParityLimitOf(const std::string& name, const std::string& driver);
 
 // A limit may not be wider than what was measured asks for: this says what is wrong with a row, or "".
