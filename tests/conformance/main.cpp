@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "fur/file.h"
+#include "planted.h"
 #include "report.h"
 #include "run.h"
 #include "settings.h"
@@ -25,13 +26,14 @@ int Fail(ExitCode code, std::string message) {
 }
 
 struct Flags : Options {
-  bool list = false, tolerances = false;
+  bool list = false, tolerances = false, plant = false;
   std::string shardText = "1/1", assets;
 };
 
 void AddFlags(CLI::App& app, Flags* f) {
   app.add_flag("--list", f->list, "Print the names of the cases, one a line, and run none");
   app.add_flag("--tolerances", f->tolerances, "Print what may differ, by how much and why");
+  app.add_flag("--plant", f->plant, "Add cases that must fail (planted.*), to see that failures show");
   app.add_option("--filter", f->filter,
                  "Run the cases whose name fits: globs (* ?) with commas between, a dash in front leaves out")
       ->capture_default_str();
@@ -122,8 +124,10 @@ void OnCrash(int signal) {
 }
 
 int RunAndReport(const std::vector<CaseName>& cases, const Options& o) {
-  for (const std::string& file : {o.junit, o.json, o.html})
-    if (const auto can = fur::CheckWritable(file); !file.empty() && !can) return Fail(kOutput, can.error().message);
+  for (const std::string& file : {o.junit, o.json, o.html}) {
+    if (file.empty()) continue;
+    if (const auto can = fur::CheckWritable(file); !can) return Fail(kOutput, can.error().message);
+  }
   const std::array<DriverInfo, 2> drivers = ProbeDrivers(o);
   if (const std::string missing = MissingDrivers(drivers, o); !missing.empty()) return Fail(kNoDriver, missing);
   if (!drivers[0].present && !drivers[1].present)
@@ -157,6 +161,7 @@ int Main(int argc, char** argv) {
   for (int i = 0; i < argc; ++i) flags.command += (i ? " " : "") + std::string(argv[i]);
   int one = 1;
   testing::InitGoogleTest(&one, argv);
+  if (flags.plant) RegisterPlanted();
   const std::vector<CaseName> all = RegisteredCases();
   if (const std::string twice = Duplicates(all); !twice.empty()) return Fail(kInternal, "two cases have the name " + twice);
   if (flags.tolerances) return PrintTolerances();

@@ -61,7 +61,7 @@ TEST_P(DeviceTest, FormatSupportOfRequiredFormats) {
   EXPECT_EQ(device.CheckMultisample(Format::RGBA8_UNorm, 1u << 20), 0u);
 }
 
-TEST_P(DeviceTest, TwoDevicesAreIndependent) {
+TEST_P(DeviceTest, TwoDevices) {
   Gpu second(GetParam());
   const Target a = gpu.MakeTarget({}), b = second.MakeTarget({});
   gpu.Clear(a, {1, 0, 0, 1});
@@ -81,7 +81,7 @@ TEST_P(DeviceTest, TwoDevicesAreIndependent) {
   second.sink.Verify();
 }
 
-TEST_P(DeviceTest, UnsupportedGivesAStatusAndAMessage) {
+TEST_P(DeviceTest, UnsupportedReturnsStatus) {
   TestSink own;
   own.Expect(MsgCode::DeviceUnavailable, "no such adapter");
   DeviceDesc desc = TestDeviceDesc(GetParam(), &own);
@@ -103,7 +103,7 @@ TEST_P(DeviceTest, SwapChainOfAHeadlessDeviceIsRefused) {
 }
 
 // Objects of every kind outlive the caller's reference of the device, and a bound one its own last reference.
-TEST_P(DeviceTest, AnyOrderOfDestruction) {
+TEST_P(DeviceTest, DestroyOrder) {
   TestSink own;
   for (const bool deviceFirst : {true, false}) {
     Ref<IDevice> d;
@@ -152,7 +152,7 @@ TEST_P(DeviceTest, ReleasedResourcesLiveUntilTheGpuIsDone) {
   EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, uint32_t) { return Rgba8{uint8_t(x + 1), 0, 0, 255}; }));
 }
 
-TEST(Messages, CodesAreStable) {
+TEST(DeviceCodes, MessageCodesStable) {
   const std::pair<MsgCode, int> codes[] = {{MsgCode::None, 0},
                                            {MsgCode::DeviceUnavailable, 100},
                                            {MsgCode::CapMissing, 101},

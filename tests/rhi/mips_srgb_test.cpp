@@ -120,7 +120,7 @@ TEST_P(SrgbTest, SampledTexelsAreLinear) {
   }
 }
 
-TEST_P(SrgbTest, RoundtripKeepsEveryByte) {
+TEST_P(SrgbTest, SrgbRoundtrip) {
   const Target target = gpu.MakeTarget({.width = 256, .height = 1, .format = Format::RGBA8_UNorm_sRGB});
   gpu.SetTarget(target);
   gpu.SetTexture(Stage::Pixel, 0, Ramp(gpu, Format::RGBA8_UNorm_sRGB).get());

@@ -25,7 +25,7 @@ TEST_P(MsaaTest, ResolveOfWholePixelsIsExact) {
   }));
 }
 
-TEST_P(MsaaTest, ResolveAveragesTheSamples) {
+TEST_P(MsaaTest, MsaaResolve) {
   const Target target = Start(16);
   gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {-1, 1, 1 / 16.f, -1}});  // to the middle of pixel 8
   EXPECT_TRUE(Matches(
@@ -67,7 +67,7 @@ TEST_P(MsaaTest, SrgbResolveIsLinear) {
 }
 
 // Alpha a covers between a * 4 - 1 and a * 4 + 1 samples, and never fewer than a smaller alpha does.
-TEST_P(MsaaTest, AlphaToCoverageBounds) {
+TEST_P(MsaaTest, A2cCoverageBounds) {
   RHI_NEEDS_CAP(alphaToCoverage);
   const Target target = Start(256);
   BlendDesc a2c;

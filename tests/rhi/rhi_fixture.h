@@ -43,6 +43,9 @@ class RhiTest : public RhiCase, public testing::WithParamInterface<rhi::Backend>
 // Each value of P on each backend.
 template <class P>
 class RhiTestOf : public RhiCase, public testing::WithParamInterface<std::tuple<P, rhi::Backend>> {
+ public:
+  using Value = P;
+
  protected:
   RhiTestOf() : RhiCase(std::get<1>(this->GetParam())) {}
   const P& Parameter() const { return std::get<0>(this->GetParam()); }
@@ -97,7 +100,7 @@ auto OnBoth(Name name) {
 #define RHI_MATRIX(suite, values, name)                                                                               \
   INSTANTIATE_TEST_SUITE_P(                                                                                           \
       Rhi, suite, testing::Combine(testing::ValuesIn(values), testing::ValuesIn(rhi_test::Backends())),               \
-      rhi_test::WithBackend<std::tuple_element_t<0, suite::ParamType>>(name))
+      rhi_test::WithBackend<suite::Value>(name))
 #define RHI_ON_BOTH(suite)                                                   \
   INSTANTIATE_TEST_SUITE_P(Rhi, suite, testing::Values(rhi_test::Both{}),    \
                            [](const testing::TestParamInfo<rhi_test::Both>&) { return std::string("both"); })
