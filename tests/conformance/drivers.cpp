@@ -63,6 +63,10 @@ std::string DriverKeyOf(const std::string& backend) {
   return DriverOf(backend).key;
 }
 
+std::string DriverLabelOf(const std::string& backend) {
+  return backend == "both" ? Vulkan().key + " " + Gl().key : DriverKeyOf(backend);
+}
+
 std::string OddDriver() { return Vulkan().key == "vulkan:lavapipe" || !Vulkan().present ? Gl().key : Vulkan().key; }
 
 }  // namespace conformance

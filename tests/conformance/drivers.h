@@ -23,6 +23,8 @@ void SetDrivers(const DriverInfo& vulkan, const DriverInfo& gl);
 const DriverInfo& DriverOf(const std::string& backend);
 // The key of the driver that a case of this backend (names.h) is for. Of "both": the odd one; "cpu" for "cpu".
 std::string DriverKeyOf(const std::string& backend);
+// The same for people and filters: of "both", both keys with a space between.
+std::string DriverLabelOf(const std::string& backend);
 // The driver that is not lavapipe or llvmpipe; "gl:llvmpipe" where both are the required ones.
 std::string OddDriver();
 

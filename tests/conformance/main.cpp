@@ -7,6 +7,7 @@
 #include <csignal>
 #include <unistd.h>
 
+#include "driver_table.h"
 #include "fur/file.h"
 #include "planted.h"
 #include "report.h"
@@ -28,6 +29,7 @@ int Fail(ExitCode code, std::string message) {
 struct Flags : Options {
   bool list = false, tolerances = false, plant = false;
   std::string shardText = "1/1", assets;
+  std::vector<std::string> driverTable;
 };
 
 void AddFlags(CLI::App& app, Flags* f) {
@@ -47,6 +49,7 @@ void AddFlags(CLI::App& app, Flags* f) {
   app.add_option("--junit", f->junit, "Write JUnit XML");
   app.add_option("--json", f->json, "Write everything but the pictures as JSON");
   app.add_option("--html", f->html, "Write a page with the pictures");
+  app.add_option("--driver-table", f->driverTable, "Print the table of docs/drivers.md from JSON reports, and run no case");
   app.add_option("--assets", f->assets, "Folder of the models of fur.* cases")->capture_default_str();
 }
 
@@ -85,6 +88,15 @@ int PrintTolerances() {
                  p.measuredDiffering * 100, p.measuredBeyond * 100, p.cause);
     else
       fmt::print("Vulkan against GL: {} on {}: not compared\n    {}\n", p.cases, p.drivers, p.cause);
+  return kPassed;
+}
+
+int PrintDriverTable(const std::vector<std::string>& reports) {
+  try {
+    fmt::print("{}", DriverTable(reports));
+  } catch (const std::runtime_error& e) {
+    return Fail(kInputMissing, e.what());
+  }
   return kPassed;
 }
 
@@ -158,6 +170,7 @@ int Main(int argc, char** argv) {
   if (const std::string bad = BadFlags(&flags); !bad.empty()) return Fail(kUsage, bad);
   if (!SetAssetsFolder(flags.assets) && app.count("--assets"))
     return Fail(kInputMissing, "--assets " + flags.assets + ": no such folder");
+  if (!flags.driverTable.empty()) return PrintDriverTable(flags.driverTable);
   for (int i = 0; i < argc; ++i) flags.command += (i ? " " : "") + std::string(argv[i]);
   int one = 1;
   testing::InitGoogleTest(&one, argv);

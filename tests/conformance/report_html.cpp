@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <sstream>
 
 #include "../../app/src/html_text.h"
 #include "report.h"
@@ -38,7 +39,7 @@ const form=document.forms[0],rows=[...document.querySelectorAll('tbody tr')];
 function show(){
   const {area,driver,result,name}=form.elements;let shown=0;
   for(const r of rows){
-    const ok=(!area.value||r.dataset.area==area.value)&&(!driver.value||r.dataset.driver==driver.value)&&
+    const ok=(!area.value||r.dataset.area==area.value)&&(!driver.value||r.dataset.driver.split(' ').includes(driver.value))&&
       (!result.value||r.dataset.result==result.value)&&r.dataset.name.includes(name.value.trim());
     r.hidden=!ok;shown+=ok;
   }
@@ -60,7 +61,8 @@ std::string Form(const Run& run) {
   std::set<std::string> areas, drivers, results;
   for (const CaseResult& c : run.cases) {
     areas.insert(c.name.area);
-    drivers.insert(c.driver);
+    std::istringstream keys(c.driver);  // of both: two
+    for (std::string key; keys >> key;) drivers.insert(key);
     results.insert(ToString(c.result));
   }
   return "<form>" + Select("area", "Area", areas) + Select("driver", "Driver", drivers) +
@@ -125,7 +127,7 @@ std::string Html(const Run& run) {
       kStyle);
   html += Head(run) + Form(run);
   html += "<table><colgroup><col style=\"width:25%\"><col style=\"width:11%\"><col style=\"width:6%\"><col style=\"width:6%\">"
-          "<col></colgroup><thead><tr><th>Case</th><th>Driver</th><th>Result</th><th>Seconds</th><th>Compared</th></tr></thead>"
+          "<col></colgroup><thead><tr><th>Case</th><th>Driver</th><th>Result</th><th>s</th><th>Compared</th></tr></thead>"
           "<tbody>\n";
   for (const CaseResult& c : run.cases) html += Row(c);
   return html + "</tbody></table>\n<script>" + kScript + "</script></body></html>\n";

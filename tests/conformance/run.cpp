@@ -26,8 +26,8 @@ class Listener final : public testing::EmptyTestEventListener {
   void OnTestStart(const testing::TestInfo& info) override {
     current_ = {.name = NameOf(info)};
     std::snprintf(runningCase.data(), runningCase.size(), "%s", current_.name.Full().c_str());
-    current_.driver = DriverKeyOf(current_.name.backend);
-    TheRecorder().Begin(current_.name, current_.driver);
+    current_.driver = DriverLabelOf(current_.name.backend);
+    TheRecorder().Begin(current_.name, DriverKeyOf(current_.name.backend));
   }
   void OnTestPartResult(const TestPartResult& part) override {
     std::string text = part.message() ? part.message() : "";
@@ -36,6 +36,7 @@ class Listener final : public testing::EmptyTestEventListener {
       return;
     }
     if (!part.failed()) return;
+    if (text.starts_with("Failed\n")) text.erase(0, 7);
     if (part.file_name() && !std::string(part.file_name()).ends_with("conformance/run.cpp")) text = std::string(part.file_name()) + ":" + std::to_string(part.line_number()) + ": " + text;
     current_.failures.push_back(text);
   }
@@ -43,7 +44,8 @@ class Listener final : public testing::EmptyTestEventListener {
     const bool skipped = info.result()->Skipped();
     CaseRecord record = TheRecorder().End(skipped);
     if (skipped)
-      if (const std::string problem = SkipProblem(current_.name.Base(), current_.driver, current_.skip); !problem.empty())
+      if (const std::string problem = SkipProblem(current_.name.Base(), DriverKeyOf(current_.name.backend), current_.skip);
+          !problem.empty())
         ADD_FAILURE() << problem;
     if (record.parity && !record.parity->problem.empty()) ADD_FAILURE() << record.parity->problem;
     const bool failed = info.result()->Failed();

@@ -32,7 +32,7 @@ struct Pictures {
 
 struct CaseResult {
   CaseName name;
-  std::string driver;  // key; "cpu"
+  std::string driver;  // DriverLabelOf
   Result result = Result::Passed;
   double seconds = 0;
   std::vector<std::string> failures;

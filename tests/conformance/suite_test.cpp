@@ -114,6 +114,15 @@ TEST(Tolerance, ALimitThatIsTooWideIsCaught) {
   EXPECT_EQ(Slack(t, 1.95), "");
 }
 
+TEST(Tolerance, NoParityLimitIsWiderThanWhatWasMeasured) {
+  for (const ParityLimit& p : ParityLimits()) {
+    if (!p.Compared()) continue;
+    EXPECT_LE(p.steps, p.measuredSteps) << p.cases;
+    EXPECT_LE(p.differing, p.measuredDiffering) << p.cases;
+    EXPECT_LE(p.beyond, p.measuredBeyond) << p.cases;
+  }
+}
+
 // The required drivers: no difference, but for named cases, and these within 1 LSB on 0.1 % of the pixels.
 TEST(Tolerance, RequiredDriversMayHardlyDiffer) {
   for (const ParityLimit& p : ParityLimits()) {
