@@ -15,6 +15,7 @@ namespace rhi_stress {
 
 using rhi_test::Image;
 using rhi_test::Matches;
+using rhi_test::Within;
 using rhi_test::Rgba32F;
 using rhi_test::Rgba8;
 using rhi_test::TestSink;
