@@ -116,15 +116,15 @@ testing::AssertionResult SameImage(const Image& result, const Image& reference, 
   if (outcome.beyond > 0) {
     const size_t at = (size_t(outcome.y) * result.width + outcome.x) * result.texelBytes;
     first << " the first at " << outcome.x << ", " << outcome.y << ":";
-    for (uint32_t i = 0; i < result.texelBytes; ++i) first << ' ' << +result.bytes[at + i] << '/' << +reference.bytes[at + i];
+    for (uint32_t i = 0; i < result.texelBytes; ++i)
+      first << ' ' << +result.bytes[at + i] << '/' << +reference.bytes[at + i];
   }
   return Report(outcome, tolerance, result, reference, first.str());
 }
 
 testing::AssertionResult Agrees(double actual, double expected, const Tolerance& tolerance) {
-  const double distance = tolerance.unit == Unit::Ulp
-                              ? UlpDistance(float(actual), float(expected), tolerance.floor)
-                              : Distance(actual, expected);
+  const double distance = tolerance.unit == Unit::Ulp ? UlpDistance(float(actual), float(expected), tolerance.floor)
+                                                      : Distance(actual, expected);
   TheRecorder().Measured(tolerance, distance);
   if (distance <= tolerance.limit) return testing::AssertionSuccess();
   return testing::AssertionFailure() << actual << " is " << distance << " " << ToString(tolerance.unit) << " from "

@@ -1,7 +1,8 @@
 // The comparisons themselves, of each kind: what is planted must be caught.
+#include "comparison.h"
+
 #include <sstream>
 
-#include "comparison.h"
 #include "names.h"
 #include "test_sink.h"
 

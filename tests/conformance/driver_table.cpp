@@ -43,7 +43,8 @@ std::string CauseOf(const std::string& driver, const std::string& name) {
 json Read(const std::string& file) {
   std::ifstream in(file);
   const json j = json::parse(in, nullptr, false);
-  if (j.is_discarded() || !j.contains("fur_conformance")) throw std::runtime_error(file + " is no report of fur_conformance");
+  if (j.is_discarded() || !j.contains("fur_conformance"))
+    throw std::runtime_error(file + " is no report of fur_conformance");
   return j;
 }
 
@@ -79,8 +80,8 @@ Tally Count(const json& run, const std::string& driver) {
 std::string Line(const json& driver, const Tally& t) {
   const double share = t.pixels ? 100.0 * double(t.differingPixels) / double(t.pixels) : 0;
   return fmt::format("| {} | {}, {} | {} | {} | {} | {} of {} | {:.3g} % |\n", driver["key"].get<std::string>(),
-                     driver["adapter"].get<std::string>(), driver["driver"].get<std::string>(), t.passed, t.failed, t.skipped,
-                     t.differing, t.pairs, share);
+                     driver["adapter"].get<std::string>(), driver["driver"].get<std::string>(), t.passed, t.failed,
+                     t.skipped, t.differing, t.pairs, share);
 }
 
 std::string Details(const json& run, const std::string& driver) {
@@ -124,9 +125,12 @@ std::string DriverTable(const std::vector<std::string>& files) {
     table += Line(subject, Count(run, key));
     details += Details(run, key);
   }
-  return "# Drivers\n\nMade by `tools/drivers.sh` from runs of `fur_conformance` on the drivers of one machine. The last two columns\n"
-         "compare what Vulkan and GL read back in the same cases: the driver of the line beside lavapipe (GL drivers) or beside\n"
-         "llvmpipe (Vulkan drivers), whose bytes are the same. Limits and causes of each difference: `fur_conformance --tolerances`.\n\n"
+  return "# Drivers\n\nMade by `tools/drivers.sh` from runs of `fur_conformance` on the drivers of one machine. The "
+         "last two columns\n"
+         "compare what Vulkan and GL read back in the same cases: the driver of the line beside lavapipe (GL drivers) "
+         "or beside\n"
+         "llvmpipe (Vulkan drivers), whose bytes are the same. Limits and causes of each difference: `fur_conformance "
+         "--tolerances`.\n\n"
          "| driver | adapter, version | passed | failed | skipped | cases that differ | pixels that differ |\n"
          "|---|---|---|---|---|---|---|\n" +
          table + details;

@@ -1,11 +1,11 @@
 // fur_conformance: proof that the backends agree, on any driver. docs/conformance.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
-#include <unistd.h>
 
 #include "driver_table.h"
 #include "fur/file.h"
@@ -17,7 +17,15 @@
 namespace conformance {
 namespace {
 
-enum ExitCode { kPassed = 0, kInternal = 1, kUsage = 2, kInputMissing = 3, kOutput = 5, kNoDriver = 6, kCaseFailed = 8 };
+enum ExitCode {
+  kPassed = 0,
+  kInternal = 1,
+  kUsage = 2,
+  kInputMissing = 3,
+  kOutput = 5,
+  kNoDriver = 6,
+  kCaseFailed = 8
+};
 
 int Fail(ExitCode code, std::string message) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
@@ -49,7 +57,8 @@ void AddFlags(CLI::App& app, Flags* f) {
   app.add_option("--junit", f->junit, "Write JUnit XML");
   app.add_option("--json", f->json, "Write everything but the pictures as JSON");
   app.add_option("--html", f->html, "Write a page with the pictures");
-  app.add_option("--driver-table", f->driverTable, "Print the table of docs/drivers.md from JSON reports, and run no case");
+  app.add_option("--driver-table", f->driverTable,
+                 "Print the table of docs/drivers.md from JSON reports, and run no case");
   app.add_option("--assets", f->assets, "Folder of the models of fur.* cases")->capture_default_str();
 }
 
@@ -79,13 +88,15 @@ int PrintList(const std::vector<CaseName>& cases) {
 
 int PrintTolerances() {
   for (const Tolerance& t : Tolerances())
-    fmt::print("{}: {} {} ({} pixels beyond), measured {}; {} on {}\n    {}\n", t.name, t.limit, ToString(t.unit), t.pixels,
-               t.measured, t.cases, t.drivers, t.cause);
+    fmt::print("{}: {} {} ({} pixels beyond), measured {}; {} on {}\n    {}\n", t.name, t.limit, ToString(t.unit),
+               t.pixels, t.measured, t.cases, t.drivers, t.cause);
   for (const ParityLimit& p : ParityLimits())
     if (p.Compared())
-      fmt::print("Vulkan against GL: {} on {}: up to {} steps on {} % of the pixels, more on {} % (measured {}, {} %, {} %)\n"
-                 "    {}\n", p.cases, p.drivers, p.steps, p.differing * 100, p.beyond * 100, p.measuredSteps,
-                 p.measuredDiffering * 100, p.measuredBeyond * 100, p.cause);
+      fmt::print(
+          "Vulkan against GL: {} on {}: up to {} steps on {} % of the pixels, more on {} % (measured {}, {} %, {} %)\n"
+          "    {}\n",
+          p.cases, p.drivers, p.steps, p.differing * 100, p.beyond * 100, p.measuredSteps, p.measuredDiffering * 100,
+          p.measuredBeyond * 100, p.cause);
     else
       fmt::print("Vulkan against GL: {} on {}: not compared\n    {}\n", p.cases, p.drivers, p.cause);
   return kPassed;
@@ -122,6 +133,7 @@ void PrintDrivers(const std::array<DriverInfo, 2>& drivers) {
 
 void PrintSummary(const Run& run) {
   for (const std::string& p : run.problems) fmt::print("FAILED  {}\n", p);
+  if (run.notRun) fmt::print("{} cases did not run: their backend is not there\n", run.notRun);
   fmt::print("{} cases: {} passed, {} failed, {} skipped in {:.1f} s\n", run.cases.size(), run.Count(Result::Passed),
              run.Count(Result::Failed), run.Count(Result::Skipped), run.seconds);
 }
@@ -176,11 +188,13 @@ int Main(int argc, char** argv) {
   testing::InitGoogleTest(&one, argv);
   if (flags.plant) RegisterPlanted();
   const std::vector<CaseName> all = RegisteredCases();
-  if (const std::string twice = Duplicates(all); !twice.empty()) return Fail(kInternal, "two cases have the name " + twice);
+  if (const std::string twice = Duplicates(all); !twice.empty())
+    return Fail(kInternal, "two cases have the name " + twice);
   if (flags.tolerances) return PrintTolerances();
   const std::vector<CaseName> selected = Selected(all, flags);
   if (flags.list) return PrintList(selected);
-  if (selected.empty()) return Fail(kUsage, "--filter " + flags.filter + " --shard " + flags.shardText + ": no case fits");
+  if (selected.empty())
+    return Fail(kUsage, "--filter " + flags.filter + " --shard " + flags.shardText + ": no case fits");
   return RunAndReport(selected, flags);
 }
 

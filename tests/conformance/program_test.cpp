@@ -1,11 +1,11 @@
 // fur_conformance from the outside: flags, exit codes, files, the page in a browser.
+#include "../app/program.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
 #include <sstream>
-
-#include "../app/program.h"
 
 namespace conformance {
 namespace {
@@ -51,9 +51,10 @@ TEST(ConformanceProgram, ListsNamesByTheRule) {
   const std::regex rule("[a-z0-9]+\\.[a-z0-9_]+(/[A-Za-z0-9_]+)?\\.(vulkan|gl|both|cpu)");
   for (const std::string& name : names) EXPECT_TRUE(std::regex_match(name, rule)) << name;
   const Outcome few = RunFur({"--list", "--filter", "blend.factor_op/src_alpha_*.gl,-*min.gl,-*max.gl"});
-  EXPECT_EQ(few.out, "blend.factor_op/src_alpha_add.gl\nblend.factor_op/src_alpha_subtract.gl\n"
-                     "blend.factor_op/src_alpha_rev_subtract.gl\nblend.factor_op/src_alpha_sat_add.gl\n"
-                     "blend.factor_op/src_alpha_sat_subtract.gl\nblend.factor_op/src_alpha_sat_rev_subtract.gl\n");
+  EXPECT_EQ(few.out,
+            "blend.factor_op/src_alpha_add.gl\nblend.factor_op/src_alpha_subtract.gl\n"
+            "blend.factor_op/src_alpha_rev_subtract.gl\nblend.factor_op/src_alpha_sat_add.gl\n"
+            "blend.factor_op/src_alpha_sat_subtract.gl\nblend.factor_op/src_alpha_sat_rev_subtract.gl\n");
 }
 
 // Every case is in one shard, beside its twin.
@@ -97,8 +98,8 @@ TEST(ConformanceProgram, SoftpipeIsRefusedInWords) {
 }
 
 TEST(ConformanceProgram, RequiredDriversAreFoundByEitherName) {
-  const Outcome o = RunFur({"--require", "vulkan:lavapipe,gl:llvmpipe", "--require", "vulkan:llvmpipe", "--filter",
-                            "device.caps_sane.*"});
+  const Outcome o = RunFur(
+      {"--require", "vulkan:lavapipe,gl:llvmpipe", "--require", "vulkan:llvmpipe", "--filter", "device.caps_sane.*"});
   EXPECT_EQ(o.exitCode, 0) << o.err << o.out;
   EXPECT_NE(o.out.find("2 cases: 2 passed"), std::string::npos) << o.out;
 }
@@ -106,8 +107,8 @@ TEST(ConformanceProgram, RequiredDriversAreFoundByEitherName) {
 // Whatever the report, it says the same.
 TEST(ConformanceProgram, ReportsAgree) {
   const Folder folder;
-  const Outcome o = RunFur({"--filter", "blend.write_mask.*,sampler.border/*,device.message*", "--json", folder / "r.json",
-                            "--junit", folder / "r.xml", "--html", folder / "r.html"});
+  const Outcome o = RunFur({"--filter", "blend.write_mask.*,sampler.border/*,device.message*", "--json",
+                            folder / "r.json", "--junit", folder / "r.xml", "--html", folder / "r.html"});
   ASSERT_EQ(o.exitCode, 0) << o.out << o.err;
   const nlohmann::json j = ReadJson(folder / "r.json");
   EXPECT_EQ(j["cases"].size(), 9u);
@@ -130,17 +131,15 @@ TEST(ConformanceProgram, ReportsAgree) {
 
 TEST(ConformanceProgram, APlantedDifferenceFails) {
   const Folder folder;
-  const Outcome o = RunFur({"--plant", "--filter", "planted.*", "--json", folder / "r.json", "--junit", folder / "r.xml"});
+  const Outcome o =
+      RunFur({"--plant", "--filter", "planted.*", "--json", folder / "r.json", "--junit", folder / "r.xml"});
   EXPECT_EQ(o.exitCode, 8) << o.out;
   std::map<std::string, std::string> results;
   const nlohmann::json j = ReadJson(folder / "r.json");
   for (const nlohmann::json& c : j["cases"]) results[c["name"]] = c["result"];
-  const std::map<std::string, std::string> expected{{"planted.one_lsb.cpu", "FAILED"},
-                                                    {"planted.message.vulkan", "FAILED"},
-                                                    {"planted.skip.gl", "FAILED"},
-                                                    {"planted.bytes.vulkan", "passed"},
-                                                    {"planted.bytes.gl", "FAILED"},
-                                                    {"planted.pictures.both", "FAILED"}};
+  const std::map<std::string, std::string> expected{
+      {"planted.one_lsb.cpu", "FAILED"},  {"planted.message.vulkan", "FAILED"}, {"planted.skip.gl", "FAILED"},
+      {"planted.bytes.vulkan", "passed"}, {"planted.bytes.gl", "FAILED"},       {"planted.pictures.both", "FAILED"}};
   EXPECT_EQ(results, expected);
   EXPECT_EQ(Count(Text(folder / "r.xml"), "<failure "), 5u);
 }
@@ -150,8 +149,8 @@ std::string DomInChromium(const std::string& page, const std::string& hash, cons
   if (std::system("command -v chromium > /dev/null 2>&1") != 0) return "";
   const std::string dom = folder / "dom.txt";
   const std::string command = "timeout 100 chromium --headless --no-sandbox --disable-gpu --user-data-dir='" +
-                              (folder / "profile") + "' --window-size=1400,1000 --dump-dom 'file://" + page + "#" + hash +
-                              "' > '" + dom + "' 2> /dev/null";
+                              (folder / "profile") + "' --window-size=1400,1000 --dump-dom 'file://" + page + "#" +
+                              hash + "' > '" + dom + "' 2> /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0);
   return Text(dom);
 }
@@ -171,7 +170,8 @@ addEventListener('load', () => {
   counts.push(shown());
   const bad = document.querySelector('tr[data-name="planted.one_lsb.cpu"]');
   if (bad.querySelector('.r').textContent != 'FAILED') wrong.push('the planted case is not shown as failed');
-  if (bad.querySelectorAll('img').length != 4) wrong.push('the planted case has ' + bad.querySelectorAll('img').length + ' pictures');
+  const pictures = bad.querySelectorAll('img').length;
+  if (pictures != 4) wrong.push('the planted case has ' + pictures + ' pictures');
   for (const i of document.images) if (!i.complete || !i.naturalWidth) wrong.push('broken ' + i.alt);
   const c = document.createElement('canvas').getContext('2d');
   const pixel = alt => {
@@ -203,8 +203,8 @@ TEST(ConformanceProgram, ThePageWorksInABrowser) {
   const std::string dom = DomInChromium(inspected, "", folder);
   if (dom.empty()) GTEST_SKIP() << "chromium is not installed: the page was not opened";
   std::ostringstream expected;
-  expected << "<title>inspected: fine: " << j["cases"].size() << ' ' << j["cases"].size() << ' ' << count("area", "planted")
-           << ' ' << count("driver", "gl:llvmpipe") << ' ' << j["failed"] << " 2 0</title>";
+  expected << "<title>inspected: fine: " << j["cases"].size() << ' ' << j["cases"].size() << ' '
+           << count("area", "planted") << ' ' << count("driver", "gl:llvmpipe") << ' ' << j["failed"] << " 2 0</title>";
   EXPECT_NE(dom.find(expected.str()), std::string::npos)
       << expected.str() << "\nbut: " << dom.substr(dom.find("<title>"), 400);
   const std::string linked = DomInChromium(folder / "r.html", "area=blend&result=passed", folder);

@@ -19,8 +19,8 @@ void Recorder::Begin(const CaseName& name, const std::string& driver) {
 
 CaseRecord Recorder::End(bool skipped) {
   active_ = false;
-  const bool pair = before_ && !skipped && before_->name.Base() == case_.name.Base() && before_->name.backend == "vulkan" &&
-                    case_.name.backend == "gl";
+  const bool pair = before_ && !skipped && before_->name.Base() == case_.name.Base() &&
+                    before_->name.backend == "vulkan" && case_.name.backend == "gl";
   if (pair) case_.parity = CompareReadBacks(*before_, case_, OddDriver());
   before_.reset();
   if (!skipped) before_ = CaseRecord{.name = case_.name, .readBacks = case_.readBacks};
@@ -65,8 +65,12 @@ void AddTo(Parity* parity, const Image& gl, const Image& vulkan) {
   parity->beyond += o.beyond;
   parity->worst = o.sameShape ? std::max(parity->worst, o.worst) : INFINITY;
   if (o.differing == 0 || parity->shown) return;
-  parity->shown = Compared{.outcome = o, .tolerance = "Vulkan against GL", .limit = parity->limit->steps, .ok = false,
-                           .result = gl, .reference = vulkan};
+  parity->shown = Compared{.outcome = o,
+                           .tolerance = "Vulkan against GL",
+                           .limit = parity->limit->steps,
+                           .ok = false,
+                           .result = gl,
+                           .reference = vulkan};
 }
 
 // What is wrong with so many pixels, or "".
@@ -75,11 +79,13 @@ std::string ProblemOf(const Parity& p) {
   const double pixels = double(p.pixels);
   const bool shapes = std::isinf(p.worst) && p.differing == 0;
   if (!limit.Compared()) return "";
-  if (!shapes && double(p.differing) <= limit.differing * pixels && double(p.beyond) <= limit.beyond * pixels) return "";
+  if (!shapes && double(p.differing) <= limit.differing * pixels && double(p.beyond) <= limit.beyond * pixels)
+    return "";
   std::ostringstream text;
-  text << "GL reads other bytes back than Vulkan: " << (shapes ? "pictures of other shapes, " : "") << p.differing << " of "
-       << p.pixels << " pixels in " << p.pictures << " pictures differ (allowed: " << limit.differing * 100 << " %), "
-       << p.beyond << " by more than " << limit.steps << " (allowed: " << limit.beyond * 100 << " %), by up to " << p.worst;
+  text << "GL reads other bytes back than Vulkan: " << (shapes ? "pictures of other shapes, " : "") << p.differing
+       << " of " << p.pixels << " pixels in " << p.pictures << " pictures differ (allowed: " << limit.differing * 100
+       << " %), " << p.beyond << " by more than " << limit.steps << " (allowed: " << limit.beyond * 100
+       << " %), by up to " << p.worst;
   return text.str();
 }
 
@@ -89,7 +95,8 @@ testing::AssertionResult Recorder::Backends(const Image& gl, const Image& vulkan
   Parity now{.limit = &ParityLimitOf(case_.name.Base(), driver_)};
   AddTo(&now, gl, vulkan);
   const std::string problem = ProblemOf(now);
-  Add({Measure(gl, vulkan, now.limit->steps), "Vulkan against GL", Unit::Lsb, now.limit->steps, 0, problem.empty(), gl, vulkan});
+  Add({Measure(gl, vulkan, now.limit->steps), "Vulkan against GL", Unit::Lsb, now.limit->steps, 0, problem.empty(), gl,
+       vulkan});
   if (!case_.parity) case_.parity = Parity{.limit = now.limit};
   Parity& all = *case_.parity;
   all.pictures += now.pictures;

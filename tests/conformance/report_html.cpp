@@ -72,22 +72,24 @@ std::string Form(const Run& run) {
 
 std::string Figure(const std::string& uri, const std::string& what) {
   if (uri.empty()) return "";
-  return fmt::format("<figure><img loading=\"lazy\" alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>", what,
-                     uri);
+  return fmt::format("<figure><img loading=\"lazy\" alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>",
+                     what, uri);
 }
 
 std::string Of(const Pictures& p) {
   const Compared& c = p.numbers;
   std::string html = "<div class=\"pics\">" + Figure(p.reference, "reference") + Figure(p.result, "result") +
                      Figure(p.difference, "difference x16") + Figure(p.flip, "FLIP") + "</div>";
-  return html + fmt::format("<div class=\"soft\">{} x {}; {}: {} of {} pixels differ, {} beyond {:g}, worst {:g} {}; "
-                            "FLIP {:.4f}</div>",
-                            p.width, p.height, Escaped(c.tolerance), c.outcome.differing, c.outcome.pixels,
-                            c.outcome.beyond, c.limit, c.outcome.worst, ToString(c.unit), p.flipMean);
+  return html + fmt::format(
+                    "<div class=\"soft\">{} x {}; {}: {} of {} pixels differ, {} beyond {:g}, worst {:g} {}; "
+                    "FLIP {:.4f}</div>",
+                    p.width, p.height, Escaped(c.tolerance), c.outcome.differing, c.outcome.pixels, c.outcome.beyond,
+                    c.limit, c.outcome.worst, ToString(c.unit), p.flipMean);
 }
 
 std::string OfParity(const Parity& p) {
-  if (!p.limit->Compared()) return fmt::format("<div class=\"soft\">Vulkan against GL: not compared: {}</div>", Escaped(p.limit->cause));
+  if (!p.limit->Compared())
+    return fmt::format("<div class=\"soft\">Vulkan against GL: not compared: {}</div>", Escaped(p.limit->cause));
   if (p.pictures == 0) return "";
   return fmt::format("<div class=\"soft\">Vulkan against GL: {} pictures, {} of {} pixels differ</div>", p.pictures,
                      p.differing, p.pixels);
@@ -99,15 +101,16 @@ std::string Row(const CaseResult& c) {
   for (const std::string& f : c.failures) details += "<pre>" + Escaped(f) + "</pre>";
   if (c.hasParity) details += OfParity(c.parity);
   for (const Pictures& p : c.pictures) details += Of(p);
-  return fmt::format("<tr class=\"{0}\" data-area=\"{1}\" data-driver=\"{2}\" data-result=\"{0}\" data-name=\"{3}\">"
-                     "<td>{3}</td><td>{2}</td><td class=\"r\">{0}</td><td class=\"n\">{4:.3f}</td><td>{5}</td></tr>\n",
-                     ToString(c.result), Escaped(c.name.area), Escaped(c.driver), Escaped(c.name.Full()), c.seconds,
-                     details);
+  return fmt::format(
+      "<tr class=\"{0}\" data-area=\"{1}\" data-driver=\"{2}\" data-result=\"{0}\" data-name=\"{3}\">"
+      "<td>{3}</td><td>{2}</td><td class=\"r\">{0}</td><td class=\"n\">{4:.3f}</td><td>{5}</td></tr>\n",
+      ToString(c.result), Escaped(c.name.area), Escaped(c.driver), Escaped(c.name.Full()), c.seconds, details);
 }
 
 std::string Head(const Run& run) {
   std::string html = fmt::format(
-      "<h1>fur_conformance</h1>\n<p><b>{}</b> cases: <b>{}</b> passed, <b>{}</b> failed, <b>{}</b> skipped in {:.1f} s; {}</p>\n",
+      "<h1>fur_conformance</h1>\n<p><b>{}</b> cases: <b>{}</b> passed, <b>{}</b> failed, <b>{}</b> skipped in {:.1f} "
+      "s; {}</p>\n",
       run.cases.size(), run.Count(Result::Passed), run.Count(Result::Failed), run.Count(Result::Skipped), run.seconds,
       run.date);
   for (const DriverInfo& d : run.drivers)
@@ -126,9 +129,11 @@ std::string Html(const Run& run) {
       "content=\"width=device-width\"><title>fur_conformance</title><style>{}</style></head><body>\n",
       kStyle);
   html += Head(run) + Form(run);
-  html += "<table><colgroup><col style=\"width:25%\"><col style=\"width:11%\"><col style=\"width:6%\"><col style=\"width:6%\">"
-          "<col></colgroup><thead><tr><th>Case</th><th>Driver</th><th>Result</th><th>s</th><th>Compared</th></tr></thead>"
-          "<tbody>\n";
+  html +=
+      "<table><colgroup><col style=\"width:25%\"><col style=\"width:11%\"><col style=\"width:6%\"><col "
+      "style=\"width:6%\">"
+      "<col></colgroup><thead><tr><th>Case</th><th>Driver</th><th>Result</th><th>s</th><th>Compared</th></tr></thead>"
+      "<tbody>\n";
   for (const CaseResult& c : run.cases) html += Row(c);
   return html + "</tbody></table>\n<script>" + kScript + "</script></body></html>\n";
 }

@@ -17,16 +17,16 @@ ordered_json Of(const DriverInfo& d) {
 }
 
 ordered_json Of(const Parity& p) {
-  return {{"pictures", p.pictures},    {"pixels", p.pixels},
-          {"differing", p.differing},  {"beyond", p.beyond},
-          {"worst", Number(p.worst)},  {"compared", p.limit->Compared()},
-          {"steps", p.limit->steps},   {"differing_limit", p.limit->differing},
+  return {{"pictures", p.pictures},          {"pixels", p.pixels},
+          {"differing", p.differing},        {"beyond", p.beyond},
+          {"worst", Number(p.worst)},        {"compared", p.limit->Compared()},
+          {"steps", p.limit->steps},         {"differing_limit", p.limit->differing},
           {"beyond_limit", p.limit->beyond}, {"cause", p.limit->cause}};
 }
 
 ordered_json Of(const CaseResult& c) {
-  ordered_json j{{"name", c.name.Full()},         {"area", c.name.area},     {"case", c.name.test},
-                 {"parameter", c.name.parameter}, {"backend", c.name.backend}, {"driver", c.driver},
+  ordered_json j{{"name", c.name.Full()},         {"area", c.name.area},          {"case", c.name.test},
+                 {"parameter", c.name.parameter}, {"backend", c.name.backend},    {"driver", c.driver},
                  {"gtest", c.name.gtest},         {"result", ToString(c.result)}, {"seconds", c.seconds},
                  {"comparisons", c.comparisons},  {"worst", Number(c.worst)}};
   if (c.result == Result::Skipped) j["skip"] = c.skip;
@@ -38,7 +38,8 @@ ordered_json Of(const CaseResult& c) {
 ordered_json OfTolerances(const Run& run) {
   ordered_json all = ordered_json::array();
   for (const auto& [key, m] : run.measured)
-    all.push_back({{"name", key.first}, {"driver", key.second}, {"worst", Number(m.worst)}, {"comparisons", m.comparisons}});
+    all.push_back(
+        {{"name", key.first}, {"driver", key.second}, {"worst", Number(m.worst)}, {"comparisons", m.comparisons}});
   return all;
 }
 
@@ -50,6 +51,7 @@ std::string Json(const Run& run) {
   j["passed"] = run.Count(Result::Passed);
   j["failed"] = run.Count(Result::Failed);
   j["skipped"] = run.Count(Result::Skipped);
+  j["not_run"] = run.notRun;
   j["problems"] = run.problems;
   j["tolerances"] = OfTolerances(run);
   j["cases"] = ordered_json::array();

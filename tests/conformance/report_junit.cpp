@@ -60,7 +60,8 @@ std::string JUnitXml(const Run& run) {
   std::string xml = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"fur_conformance\" tests=\"{}\" failures=\"{}\" "
       "skipped=\"{}\" time=\"{:.3f}\" timestamp=\"{}\">\n",
-      run.cases.size() + 1, run.Count(Result::Failed) + whole.failures, run.Count(Result::Skipped), run.seconds, run.date);
+      run.cases.size() + 1, run.Count(Result::Failed) + whole.failures, run.Count(Result::Skipped), run.seconds,
+      run.date);
   for (const auto& [area, s] : suites)
     xml += fmt::format(
         "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n{}  </testsuite>\n",

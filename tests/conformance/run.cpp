@@ -37,14 +37,16 @@ class Listener final : public testing::EmptyTestEventListener {
     }
     if (!part.failed()) return;
     if (text.starts_with("Failed\n")) text.erase(0, 7);
-    if (part.file_name() && !std::string(part.file_name()).ends_with("conformance/run.cpp")) text = std::string(part.file_name()) + ":" + std::to_string(part.line_number()) + ": " + text;
+    if (part.file_name() && !std::string(part.file_name()).ends_with("conformance/run.cpp"))
+      text = std::string(part.file_name()) + ":" + std::to_string(part.line_number()) + ": " + text;
     current_.failures.push_back(text);
   }
   void OnTestEnd(const testing::TestInfo& info) override {
     const bool skipped = info.result()->Skipped();
     CaseRecord record = TheRecorder().End(skipped);
     if (skipped)
-      if (const std::string problem = SkipProblem(current_.name.Base(), DriverKeyOf(current_.name.backend), current_.skip);
+      if (const std::string problem =
+              SkipProblem(current_.name.Base(), DriverKeyOf(current_.name.backend), current_.skip);
           !problem.empty())
         ADD_FAILURE() << problem;
     if (record.parity && !record.parity->problem.empty()) ADD_FAILURE() << record.parity->problem;
@@ -117,8 +119,8 @@ bool CanRun(const CaseName& name, const std::array<DriverInfo, 2>& drivers) {
 void CheckThatSomeRan(const std::vector<CaseName>& selected, Run* run) {
   for (const DriverInfo& driver : run->drivers) {
     if (!driver.present) continue;
-    const bool wanted = std::any_of(selected.begin(), selected.end(),
-                                    [&](const CaseName& c) { return c.backend == driver.backend; });
+    const bool wanted =
+        std::any_of(selected.begin(), selected.end(), [&](const CaseName& c) { return c.backend == driver.backend; });
     const bool ran = std::any_of(run->cases.begin(), run->cases.end(), [&](const CaseResult& c) {
       return c.name.backend == driver.backend && c.result != Result::Skipped;
     });
@@ -228,6 +230,7 @@ Run RunCases(const std::vector<CaseName>& selected, const std::array<DriverInfo,
   std::vector<CaseName> able;
   std::copy_if(selected.begin(), selected.end(), std::back_inserter(able),
                [&](const CaseName& c) { return CanRun(c, drivers); });
+  run.notRun = selected.size() - able.size();
   if (able.empty()) {
     run.problems.push_back("no case can run on the drivers that are there");
     return run;

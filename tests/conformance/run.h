@@ -11,12 +11,12 @@
 namespace conformance {
 
 struct Options {
-  std::string filter = "*";                // globs with commas between, of conformance names or GoogleTest's
-  uint32_t shard = 1, shards = 1;          // this one, of so many
-  std::vector<std::string> required;       // "vulkan:llvmpipe": backend and part of an adapter's name or driver key
-  std::vector<std::string> adapters;       // "vulkan:NAME", "gl:NAME" or "NAME" for both
-  std::string json, junit, html;           // files; "": not written
-  std::string command;                     // as it was typed, for the report
+  std::string filter = "*";           // globs with commas between, of conformance names or GoogleTest's
+  uint32_t shard = 1, shards = 1;     // this one, of so many
+  std::vector<std::string> required;  // "vulkan:llvmpipe": backend and part of an adapter's name or driver key
+  std::vector<std::string> adapters;  // "vulkan:NAME", "gl:NAME" or "NAME" for both
+  std::string json, junit, html;      // files; "": not written
+  std::string command;                // as it was typed, for the report
 };
 
 enum class Result { Passed, Failed, Skipped };
@@ -47,6 +47,7 @@ struct CaseResult {
 struct Run {
   std::array<DriverInfo, 2> drivers;  // Vulkan, GL
   std::vector<CaseResult> cases;
+  uint64_t notRun = 0;                // selected, but for a backend that is not there
   std::vector<std::string> problems;  // of the run as a whole
   std::map<std::pair<std::string, std::string>, MeasuredTolerance> measured;
   double seconds = 0;

@@ -57,7 +57,8 @@ TEST(Suite, EveryCaseIsOnBothBackends) {
 TEST(Suite, NamesFollowTheRule) {
   const CaseName plain = MakeCaseName("Rhi/BlendTest", "WriteMask/vulkan");
   EXPECT_EQ(plain.Full(), "blend.write_mask.vulkan");
-  EXPECT_EQ(MakeCaseName("Rhi/BlendFactorTest", "FactorOp/src_alpha_add_gl").Full(), "blend.factor_op/src_alpha_add.gl");
+  EXPECT_EQ(MakeCaseName("Rhi/BlendFactorTest", "FactorOp/src_alpha_add_gl").Full(),
+            "blend.factor_op/src_alpha_add.gl");
   EXPECT_EQ(MakeCaseName("X/FurModelTest", "Picture/cat_both").Full(), "fur.picture/cat.both");
   EXPECT_EQ(MakeCaseName("X/FurModeTest", "Picture/both").Full(), "fur.picture.both");
   EXPECT_EQ(MakeCaseName("DeviceCodes", "MessageCodesStable").Full(), "device.message_codes_stable.cpu");

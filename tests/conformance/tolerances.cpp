@@ -26,8 +26,10 @@ constexpr Tolerance kTolerances[] = {
      "in steps of the encoded byte: llvmpipe decodes sRGB by a polynomial; Direct3D allows 0.5"},
     {"srgb_decoding_of_formats", "format.*", "*", Unit::Value, 0.0012, 0, 0, 0.0011943,
      "llvmpipe decodes sRGB by a polynomial"},
-    {"unorm_to_float", "srgb.*,format.*", "*", Unit::Ulp, 1, 0, 0, 1, "a byte is multiplied by 1/255, not divided by 255"},
-    {"resolve_average", "msaa.*", kIndependent, Unit::Lsb, 1, 0, 0, 1, "SwiftShader rounds the average of samples down"},
+    {"unorm_to_float", "srgb.*,format.*", "*", Unit::Ulp, 1, 0, 0, 1,
+     "a byte is multiplied by 1/255, not divided by 255"},
+    {"resolve_average", "msaa.*", kIndependent, Unit::Lsb, 1, 0, 0, 1,
+     "SwiftShader rounds the average of samples down"},
     {"alpha_to_coverage", "msaa.*", "*", Unit::Value, 0.251, 0, 0, 0.25098,
      "four samples: coverage has steps of a quarter"},
     {"format_step", "format.*", "*", Unit::Value, 0.0031, 0, 0, 0.003067,
@@ -41,13 +43,13 @@ constexpr Tolerance kTolerances[] = {
 constexpr ParityLimit kNoDifference{"*", "*", 0, 0, 0, 0, 0, 0, ""};
 constexpr double kNotCompared = ParityLimit::kNotCompared;
 constexpr ParityLimit kParityLimits[] = {
-    {"format.resolve_and_mips_work_where_they_are_offered,format.unordered_access_formats_are_written", "*", 0, 1, kNotCompared,
-     0, 1, 1, "each backend tries the formats that its driver offers, and these differ"},
+    {"format.resolve_and_mips_work_where_they_are_offered,format.unordered_access_formats_are_written", "*", 0, 1,
+     kNotCompared, 0, 1, 1, "each backend tries the formats that its driver offers, and these differ"},
     // Independent rasterisers.
     {"blend.factor_op/*", kIndependent, 1, 0.6875, 0, 1, 0.6875, 0,
      "SwiftShader blends in floats, llvmpipe in 8-bit integers"},
-    {"format.texels_are_read_as_they_are_written,srgb.sampled_texels_are_linear", kIndependent, 513811, 0.9961, 0, 513811, 0.9961, 0,
-     "ULP: SwiftShader decodes sRGB exactly, llvmpipe by a polynomial"},
+    {"format.texels_are_read_as_they_are_written,srgb.sampled_texels_are_linear", kIndependent, 513811, 0.9961, 0,
+     513811, 0.9961, 0, "ULP: SwiftShader decodes sRGB exactly, llvmpipe by a polynomial"},
     {"format.targets_take_draws_and_clears", kIndependent, 1, 0.0589, 0, 1, 0.0589, 0,
      "SwiftShader encodes sRGB exactly, llvmpipe by a polynomial"},
     {"format.linear_formats_are_filtered", kIndependent, 32897, 0.2858, 0, 32897, 0.2858, 0,
@@ -58,8 +60,7 @@ constexpr ParityLimit kParityLimits[] = {
      "SwiftShader encodes and decodes sRGB exactly, llvmpipe by polynomials"},
     {"msaa.a2c_coverage_bounds", kIndependent, 64, 0.6524, 0, 64, 0.6524, 0,
      "a sample more or less: where coverage steps is left to the driver"},
-    {"msaa.sample_mask", kIndependent, 1, 0.125, 0, 1, 0.125, 0,
-     "SwiftShader rounds the average of samples down"},
+    {"msaa.sample_mask", kIndependent, 1, 0.125, 0, 1, 0.125, 0, "SwiftShader rounds the average of samples down"},
     {"sampler.linear_filter/*,sampler.one_texture_two_samplers", kIndependent, 1, 0.477, 0, 1, 0.477, 0,
      "the linear filter rounds its weights and sums otherwise"},
     {"sampler.aniso_monotone", kIndependent, 78, 0.8, 0, 78, 0.8, 0,
@@ -84,10 +85,10 @@ constexpr ParityLimit kParityLimits[] = {
      "edges, and each blend rounds otherwise"},
     {"parity.same_bytes/alpha_to_coverage_4x", kIndependent, 64, 0.8099, 0.0122, 64, 0.8099, 0.0122,
      "a sample more or less: where coverage steps is left to the driver"},
-    {"clear.reaches_the_whole_view_whatever_the_state,clear.leaves_the_state_as_it_was,clear.stencil_is_read_back", kIndependent, 0, 1,
-     kNotCompared, 0, 1, 1, "SwiftShader has no D24_UNorm_S8_UInt: the cases read other formats"},
-    {"zero.*_in_every_stage", kIndependent, 0, 1,
-     kNotCompared, 0, 1, 1, "SwiftShader has no geometry shaders: the cases read fewer stages"},
+    {"clear.reaches_the_whole_view_whatever_the_state,clear.leaves_the_state_as_it_was,clear.stencil_is_read_back",
+     kIndependent, 0, 1, kNotCompared, 0, 1, 1, "SwiftShader has no D24_UNorm_S8_UInt: the cases read other formats"},
+    {"zero.*_in_every_stage", kIndependent, 0, 1, kNotCompared, 0, 1, 1,
+     "SwiftShader has no geometry shaders: the cases read fewer stages"},
 };
 
 }  // namespace
@@ -122,9 +123,9 @@ const ParityLimit& ParityLimitOf(const std::string& name, const std::string& dri
 std::string Slack(const Tolerance& t, double measured) {
   const double least = t.unit == Unit::Value ? 1.05 * measured : std::ceil(measured);
   if (t.limit <= least) return "";
-  return std::string("tolerance ") + t.name + " on " + t.drivers + " is wider than it has to be: " +
-         std::to_string(t.limit) + " " + ToString(t.unit) + ", measured " + std::to_string(measured) +
-         "; tests/conformance/tolerances.cpp";
+  return std::string("tolerance ") + t.name + " on " + t.drivers +
+         " is wider than it has to be: " + std::to_string(t.limit) + " " + ToString(t.unit) + ", measured " +
+         std::to_string(measured) + "; tests/conformance/tolerances.cpp";
 }
 
 }  // namespace conformance

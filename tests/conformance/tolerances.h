@@ -13,13 +13,13 @@ const char* ToString(Unit);
 
 struct Tolerance {
   const char* name;
-  const char* cases;     // glob of the cases that use it, as area.case/parameter
-  const char* drivers;   // glob of the drivers it holds for, as "vulkan:lavapipe"; the first row that fits counts
+  const char* cases;    // glob of the cases that use it, as area.case/parameter
+  const char* drivers;  // glob of the drivers it holds for, as "vulkan:lavapipe"; the first row that fits counts
   Unit unit;
-  double limit;          // of a component's distance from its oracle
-  uint64_t pixels;       // that may be farther than that
-  double floor;          // Ulp: of the larger of |expected| and this (the greatest value of the computation)
-  double measured;       // the greatest distance that was seen on these drivers
+  double limit;     // of a component's distance from its oracle
+  uint64_t pixels;  // that may be farther than that
+  double floor;     // Ulp: of the larger of |expected| and this (the greatest value of the computation)
+  double measured;  // the greatest distance that was seen on these drivers
   const char* cause;
 };
 inline constexpr Tolerance kExact{"exact", "*", "*", Unit::Lsb, 0, 0, 0, 0, ""};

@@ -113,12 +113,14 @@ struct FactorAndOp {
   BlendOp op;
 };
 std::string NameOf(const FactorAndOp& p) {
-  static constexpr const char* kFactorNames[] = {"zero",           "one",       "src_color",      "inv_src_color",
-                                                 "src_alpha",      "inv_src_alpha", "dest_alpha", "inv_dest_alpha",
-                                                 "dest_color",     "inv_dest_color", "src_alpha_sat", "blend_factor",
-                                                 "inv_blend_factor"};
+  static constexpr const char* kFactorNames[] = {
+      "zero",          "one",          "src_color",       "inv_src_color", "src_alpha",
+      "inv_src_alpha", "dest_alpha",   "inv_dest_alpha",  "dest_color",    "inv_dest_color",
+      "src_alpha_sat", "blend_factor", "inv_blend_factor"};
   static constexpr const char* kOpNames[] = {"add", "subtract", "rev_subtract", "min", "max"};
-  const auto index = [](const auto& list, auto value) { return std::find(std::begin(list), std::end(list), value) - list; };
+  const auto index = [](const auto& list, auto value) {
+    return std::find(std::begin(list), std::end(list), value) - list;
+  };
   return std::string(kFactorNames[index(kFactors, p.factor)]) + "_" + kOpNames[index(kOps, p.op)];
 }
 std::vector<FactorAndOp> FactorsAndOps() {
@@ -129,8 +131,8 @@ std::vector<FactorAndOp> FactorsAndOps() {
 }
 
 // The parameter is the source's factor and the operation; each is met by every destination factor (SRC_ALPHA_SAT is
-// one of a source only), a pixel each, with the operations of alpha in turn. Each state costs a driver a compilation, so
-// MIN and MAX, which know no factors, meet only two.
+// one of a source only), a pixel each, with the operations of alpha in turn. Each state costs a driver a compilation,
+// so MIN and MAX, which know no factors, meet only two.
 using BlendFactorTest = RhiTestOf<FactorAndOp>;
 TEST_P(BlendFactorTest, FactorOp) {
   const auto& [src, op] = Parameter();
@@ -139,7 +141,11 @@ TEST_P(BlendFactorTest, FactorOp) {
   BlendRow row(gpu, 16);
   for (const B dest : noFactors ? std::span(kFactors).first(2) : std::span(kFactors))
     if (dest != B::SrcAlphaSat)
-      row.DrawNext({.src = src, .dest = dest, .op = op, .srcAlpha = AlphaTwin(src), .destAlpha = AlphaTwin(dest),
+      row.DrawNext({.src = src,
+                    .dest = dest,
+                    .op = op,
+                    .srcAlpha = AlphaTwin(src),
+                    .destAlpha = AlphaTwin(dest),
                     .opAlpha = kOps[turn++ % 5]});
   row.ExpectAll();
 }

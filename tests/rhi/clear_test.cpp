@@ -120,7 +120,8 @@ TEST_P(ClearTest, StencilIsReadBack) {
     for (uint32_t y = 0; y < 3; ++y)
       for (uint32_t x = 0; x < 16; ++x) {
         const auto [depth, stencil] = Texel(image, f, x, y);
-        EXPECT_EQ(depth, f == Format::D24_UNorm_S8_UInt ? std::round(x / 16.0 * 0xFFFFFF) / 0xFFFFFF : x / 16.0) << ToString(f) << x;
+        EXPECT_EQ(depth, f == Format::D24_UNorm_S8_UInt ? std::round(x / 16.0 * 0xFFFFFF) / 0xFFFFFF : x / 16.0)
+            << ToString(f) << x;
         EXPECT_EQ(stencil, 17 * x) << ToString(f) << x;
       }
   }

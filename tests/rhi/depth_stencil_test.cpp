@@ -149,9 +149,10 @@ TEST_P(DepthTest, DepthBiasFollowsTheFormula) {
     context.IASetPrimitiveTopology(PrimitiveTopology::TriangleStrip);
     gpu.SetVertices(slanted.get(), sizeof(Vertex));
     context.Draw(4, 0);
-    EXPECT_TRUE(Matches(gpu.Read(target.depth.get()), [&](uint32_t x, auto) {
-      return std::array<float, 1>{float(0.25 + (x + 0.5) * slope + c.expected)};
-    })) << c.bias << ' ' << c.scale << ' ' << c.clamp;
+    EXPECT_TRUE(
+        Matches(gpu.Read(target.depth.get()),
+                [&](uint32_t x, auto) { return std::array<float, 1>{float(0.25 + (x + 0.5) * slope + c.expected)}; }))
+        << c.bias << ' ' << c.scale << ' ' << c.clamp;
   }
 }
 
@@ -224,12 +225,12 @@ TEST_P(StencilFunctionTest, StencilFunc) {
   gpu.Clear(target, {0, 0, 0, 0}, 1, 5);
   gpu.SetTarget(target);
   for (uint32_t i = 0; i < 3; ++i) {
-    context.OMSetDepthStencilState(gpu.DepthStencil({.stencilEnable = true, .front = {.func = Parameter()}}).get(), 4 + i);
+    context.OMSetDepthStencilState(gpu.DepthStencil({.stencilEnable = true, .front = {.func = Parameter()}}).get(),
+                                   4 + i);
     DrawColumnOf(gpu, i, 0.5f);
   }
-  EXPECT_TRUE(Matches(gpu.Read(target), [this](uint32_t x, auto) {
-    return x < 3 && Passes(Parameter(), 4 + x, 5) ? kWhite : kBlack;
-  }));
+  EXPECT_TRUE(Matches(gpu.Read(target),
+                      [this](uint32_t x, auto) { return x < 3 && Passes(Parameter(), 4 + x, 5) ? kWhite : kBlack; }));
 }
 
 TEST_P(DepthTest, StencilMasksAndFaces) {

@@ -185,7 +185,8 @@ TEST_P(FormatTest, TexelsAreReadAsTheyAreWritten) {
     gpu.SetTexture(Stage::Pixel, 0, t.get());
     gpu.DrawRect(LoaderOf(f));
     const auto oracle = [&](uint32_t x, uint32_t y) { return Decode(f, &texels[(y * 8 + x) * info.blockBytes]); };
-    EXPECT_TRUE(Matches(gpu.Read(target), oracle, Within(info.sRGB ? "srgb_decoding_of_formats" : "unorm_to_float"))) << ToString(f);
+    EXPECT_TRUE(Matches(gpu.Read(target), oracle, Within(info.sRGB ? "srgb_decoding_of_formats" : "unorm_to_float")))
+        << ToString(f);
   }
 }
 
@@ -205,7 +206,9 @@ TEST_P(FormatTest, TargetsTakeDrawsAndClears) {
     for (const uint32_t x : {0u, 7u}) {
       const Rgba32F seen = Decode(f, &image.bytes[x * info.blockBytes]);
       for (size_t c = 0; c < info.components; ++c)
-        EXPECT_TRUE(Agrees(seen[c], value[c], info.isInteger || info.isFloat ? conformance::kExact : Within("format_step"))) << ToString(f) << x << c;
+        EXPECT_TRUE(
+            Agrees(seen[c], value[c], info.isInteger || info.isFloat ? conformance::kExact : Within("format_step")))
+            << ToString(f) << x << c;
     }
   }
 }
@@ -228,7 +231,10 @@ TEST_P(FormatTest, BlendableFormatsBlend) {
     const Rgba32F seen = Decode(f, gpu.Read(target).bytes.data()), sum{0.75f, 0.375f, 0.5f, 0.75f};
     const bool coarse = f == Format::R10G10B10A2_UNorm;
     for (size_t c = 0; c < info.components; ++c)
-      EXPECT_TRUE(Agrees(seen[c], sum[c], info.isFloat ? conformance::kExact : Within(coarse && c == 3 ? "two_bit_blend" : "format_blend"))) << ToString(f) << c;
+      EXPECT_TRUE(
+          Agrees(seen[c], sum[c],
+                 info.isFloat ? conformance::kExact : Within(coarse && c == 3 ? "two_bit_blend" : "format_blend")))
+          << ToString(f) << c;
   }
 }
 
@@ -277,7 +283,9 @@ TEST_P(FormatTest, UnorderedAccessFormatsAreWritten) {
     context.Dispatch(1, 1, 1);
     const Rgba32F seen = Decode(f, gpu.Read(t.get()).bytes.data());
     for (size_t c = 0; c < info.components; ++c)
-      EXPECT_TRUE(Agrees(seen[c], value[c], info.isInteger || info.isFloat ? conformance::kExact : Within("format_step"))) << ToString(f) << c;
+      EXPECT_TRUE(
+          Agrees(seen[c], value[c], info.isInteger || info.isFloat ? conformance::kExact : Within("format_step")))
+          << ToString(f) << c;
   }
 }
 

@@ -52,7 +52,8 @@ void ExpectBoxFiltered(Gpu& gpu, Format format, bool srgb) {
     for (uint32_t mip = 1; mip < 7; ++mip) {
       const Image above = gpu.Read(t.get(), mip - 1, slice);
       const auto oracle = [&](uint32_t x, uint32_t y) { return BoxFilter(above, x, y, srgb); };
-      EXPECT_TRUE(Matches(gpu.Read(t.get(), mip, slice), oracle, Within("mip_average"))) << "mip " << mip << " slice " << slice;
+      EXPECT_TRUE(Matches(gpu.Read(t.get(), mip, slice), oracle, Within("mip_average")))
+          << "mip " << mip << " slice " << slice;
     }
   }
 }
@@ -114,7 +115,7 @@ TEST_P(SrgbTest, SampledTexelsAreLinear) {
   const Image image = gpu.Read(target);
   for (uint32_t x = 0; x < 256; ++x) {
     const Rgba32F linear = image.At<Rgba32F>(x, 0);
-    for (size_t c = 0; c < 3; ++c) 
+    for (size_t c = 0; c < 3; ++c)
       EXPECT_TRUE(Agrees(LinearToSrgb(linear[c]) * 255, RampTexel(x, 0)[c], Within("srgb_decoding"))) << x << ' ' << c;
     EXPECT_TRUE(Agrees(linear[3], float(RampTexel(x, 0)[3]) / 255, Within("unorm_to_float"))) << "alpha is not encoded";
   }

@@ -1,10 +1,9 @@
 // Fixtures of cases that run on every backend, and of those that compare the two. docs/conformance.md has the names.
 //
-//   class BlendTest : public RhiTest                      TEST_P(BlendTest, WriteMask)      blend.write_mask.vulkan, .gl
-//   RHI_ON_EVERY_BACKEND(BlendTest);
-//   class BlendFactorTest : public RhiTestOf<Factor>      ... Parameter() ...               blend.source_factor/one.gl
-//   RHI_MATRIX(BlendFactorTest, kFactors, FactorName);    the name is of letters, digits and _
-//   class FurModeTest : public BothTest                   ... vulkan, gl ...                fur.fins_are_alike.both
+//   class BlendTest : public RhiTest                      TEST_P(BlendTest, WriteMask)      blend.write_mask.vulkan,
+//   .gl RHI_ON_EVERY_BACKEND(BlendTest); class BlendFactorTest : public RhiTestOf<Factor>      ... Parameter() ...
+//   blend.source_factor/one.gl RHI_MATRIX(BlendFactorTest, kFactors, FactorName);    the name is of letters, digits and
+//   _ class FurModeTest : public BothTest                   ... vulkan, gl ...                fur.fins_are_alike.both
 //   RHI_ON_BOTH(FurModeTest);
 //   class FurModelTest : public BothTestOf<Model>         ... Parameter() ...               fur.picture/cat.both
 //   RHI_MATRIX_ON_BOTH(FurModelTest, kModels, ModelName);
@@ -97,12 +96,12 @@ auto OnBoth(Name name) {
 #define RHI_ON_EVERY_BACKEND(suite) \
   INSTANTIATE_TEST_SUITE_P(Rhi, suite, testing::ValuesIn(rhi_test::Backends()), rhi_test::NameOfBackend)
 // `values`: a container or an array; name(value): letters, digits and _.
-#define RHI_MATRIX(suite, values, name)                                                                               \
-  INSTANTIATE_TEST_SUITE_P(                                                                                           \
-      Rhi, suite, testing::Combine(testing::ValuesIn(values), testing::ValuesIn(rhi_test::Backends())),               \
-      rhi_test::WithBackend<suite::Value>(name))
-#define RHI_ON_BOTH(suite)                                                   \
-  INSTANTIATE_TEST_SUITE_P(Rhi, suite, testing::Values(rhi_test::Both{}),    \
+#define RHI_MATRIX(suite, values, name)                                                                          \
+  INSTANTIATE_TEST_SUITE_P(Rhi, suite,                                                                           \
+                           testing::Combine(testing::ValuesIn(values), testing::ValuesIn(rhi_test::Backends())), \
+                           rhi_test::WithBackend<suite::Value>(name))
+#define RHI_ON_BOTH(suite)                                                \
+  INSTANTIATE_TEST_SUITE_P(Rhi, suite, testing::Values(rhi_test::Both{}), \
                            [](const testing::TestParamInfo<rhi_test::Both>&) { return std::string("both"); })
 #define RHI_MATRIX_ON_BOTH(suite, values, name) \
   INSTANTIATE_TEST_SUITE_P(Rhi, suite, testing::ValuesIn(values), rhi_test::OnBoth<suite::ParamType>(name))

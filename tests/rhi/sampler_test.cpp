@@ -148,9 +148,11 @@ TEST_P(SamplerTest, LodClampBiasAndMipFilter) {
   for (const Case& c : cases) {
     gpu.SetSampler(Stage::Pixel, 0, {.mip = c.mip, .mipBias = c.bias, .minLod = c.minLod, .maxLod = c.maxLod});
     gpu.DrawRect(test_shaders::sample_PSSampleLevel, {.extra = {0, 0, 0, c.level}});
-    EXPECT_TRUE(Matches(gpu.Read(target), [&](auto, auto) {
-      return Rgba8{c.expected, 0, 0, 255};
-    })) << c.level << ' ' << c.minLod;
+    EXPECT_TRUE(Matches(gpu.Read(target),
+                        [&](auto, auto) {
+                          return Rgba8{c.expected, 0, 0, 255};
+                        }))
+        << c.level << ' ' << c.minLod;
   }
 }
 

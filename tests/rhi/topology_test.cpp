@@ -286,9 +286,9 @@ TEST_P(TopologyTest, PointsAndLinesAreDrawn) {
 }
 
 std::string NameOf(PrimitiveTopology t) {
-  static constexpr const char* kNames[] = {"point_list",    "line_list",      "line_strip",        "triangle_list",
-                                           "triangle_strip", "line_list_adj", "line_strip_adj", "triangle_list_adj",
-                                           "triangle_strip_adj"};
+  static constexpr const char* kNames[] = {"point_list",     "line_list",         "line_strip",
+                                           "triangle_list",  "triangle_strip",    "line_list_adj",
+                                           "line_strip_adj", "triangle_list_adj", "triangle_strip_adj"};
   return kNames[std::find(std::begin(kAll), std::end(kAll), t) - kAll];
 }
 

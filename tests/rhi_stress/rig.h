@@ -15,10 +15,10 @@ namespace rhi_stress {
 
 using rhi_test::Image;
 using rhi_test::Matches;
-using rhi_test::Within;
 using rhi_test::Rgba32F;
 using rhi_test::Rgba8;
 using rhi_test::TestSink;
+using rhi_test::Within;
 
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool kAddressSanitizer = true;  // keeps freed memory, and maps terabytes
