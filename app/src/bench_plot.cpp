@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "html_text.h"
+
 namespace app {
 namespace {
 
@@ -170,21 +172,6 @@ std::string Legend(const Plot& plot) {
 }
 
 }  // namespace
-
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      default: out += c;
-    }
-  }
-  return out;
-}
 
 std::string PlotSvg(const Plot& plot) {
   const Axes a = AxesFor(plot);

@@ -6,9 +6,6 @@
 
 namespace app {
 
-// Text for HTML and SVG, also within quoted attributes.
-std::string Escaped(const std::string& text);
-
 struct PlotPoint {
   std::string label;
   double ms = 0, error = 0;

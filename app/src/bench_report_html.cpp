@@ -6,6 +6,7 @@
 #include "bench_plot.h"
 #include "bench_report.h"
 #include "fur/image_io.h"
+#include "html_text.h"
 #include "stats.h"
 
 namespace app {
@@ -40,18 +41,6 @@ figure{margin:0;background:var(--band);padding:8px;border-radius:6px}figure div{
 figure img{width:calc(50% - 3px);height:auto;display:block}figure.one img{width:100%}
 figcaption{font-size:13px;margin-top:5px;color:var(--soft)}figcaption b{color:var(--ink)}
 )";
-
-std::string Base64(const std::vector<uint8_t>& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-    for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 // Appends the picture; empty pictures are left out.
 Result<fur::Done> AddPicture(const BenchPicture& p, const std::vector<uint8_t>& pixels, const std::string& alt,

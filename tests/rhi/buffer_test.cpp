@@ -114,7 +114,7 @@ TEST_P(BufferTest, MapDiscardTwoDrawsSameBuffer) {
   }));
 }
 
-TEST_P(BufferTest, NoOverwriteAppends) {
+TEST_P(BufferTest, NoOverwriteAppend) {
   const Target target = gpu.MakeTarget({.width = 8, .height = 1});
   const Ref<IBuffer> b =
       gpu.Buffer({.byteWidth = 8 * 16, .usage = Usage::Dynamic, .bind = Bind::ShaderResource, .structureStride = 16});

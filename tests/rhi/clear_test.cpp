@@ -47,7 +47,7 @@ class ClearTest : public RhiTest {
     for (uint32_t y = 0; y < image.height; ++y)
       for (uint32_t x = 0; x < image.width; ++x) {
         const auto [d, s] = Texel(image, f, x, y);
-        EXPECT_NEAR(d, depth, 1e-6) << ToString(f) << x << ' ' << y;
+        EXPECT_EQ(std::round(d * 0xFFFFFF), std::round(depth * 0xFFFFFF)) << ToString(f) << x << ' ' << y;
         EXPECT_EQ(s, stencil) << ToString(f) << x << ' ' << y;
       }
   }
@@ -120,7 +120,8 @@ TEST_P(ClearTest, StencilIsReadBack) {
     for (uint32_t y = 0; y < 3; ++y)
       for (uint32_t x = 0; x < 16; ++x) {
         const auto [depth, stencil] = Texel(image, f, x, y);
-        EXPECT_NEAR(depth, x / 16.0, 1e-6) << ToString(f) << x;
+        EXPECT_EQ(depth, f == Format::D24_UNorm_S8_UInt ? std::round(x / 16.0 * 0xFFFFFF) / 0xFFFFFF : x / 16.0)
+            << ToString(f) << x;
         EXPECT_EQ(stencil, 17 * x) << ToString(f) << x;
       }
   }
@@ -131,8 +132,11 @@ TEST_P(ClearTest, EveryDepthFormatIsReadBack) {
     const Target target = gpu.MakeTarget({.width = 5, .height = 3, .depthFormat = f});
     gpu.Clear(target, {0, 0, 0, 0}, 0.25f);
     const Image image = gpu.Read(target.depth.get());
-    const double depth = f == Format::D16_UNorm ? image.At<uint16_t>(4, 2) / 65535.0 : double(image.At<float>(4, 2));
-    EXPECT_NEAR(depth, 0.25, 1e-5) << ToString(f);
+    if (f == Format::D16_UNorm) {
+      EXPECT_EQ(image.At<uint16_t>(4, 2), 16384) << "0.25 * 65535, rounded";
+    } else {
+      EXPECT_EQ(image.At<float>(4, 2), 0.25f);
+    }
   }
 }
 

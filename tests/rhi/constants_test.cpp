@@ -18,7 +18,7 @@ class ConstantsTest : public RhiTest {
 };
 
 // One pixel for each of 10,000 draws, each with constants of its own, in one pass.
-TEST_P(ConstantsTest, Update10kWithoutAPassBreak) {
+TEST_P(ConstantsTest, Update10kNoPassBreak) {
   const Target target = gpu.MakeTarget({.width = 100, .height = 100, .format = Format::RGBA8_UNorm});
   gpu.Clear(target, {0, 0, 0, 0});
   gpu.SetTarget(target);
@@ -42,7 +42,7 @@ TEST_P(ConstantsTest, Update10kWithoutAPassBreak) {
 }
 
 // More than a page of the ring in each of six frames, so that every page comes round again while frames are in flight.
-TEST_P(ConstantsTest, RingWrapsOverFrames) {
+TEST_P(ConstantsTest, RingWrapThreeFrames) {
   std::vector<Target> targets;
   for (uint32_t frame = 0; frame < 6; ++frame) {
     const Target& target = targets.emplace_back(gpu.MakeTarget({.width = 64, .height = 64}));

@@ -1,4 +1,6 @@
 // Depth functions, depth writes, stencil operations and masks.
+#include <algorithm>
+
 #include "rhi_fixture.h"
 
 namespace rhi_test {
@@ -31,29 +33,37 @@ constexpr Comparison kFunctions[] = {Comparison::Never,        Comparison::Less,
                                      Comparison::LessEqual,    Comparison::Greater, Comparison::NotEqual,
                                      Comparison::GreaterEqual, Comparison::Always};
 
+// Draws column `x` of a target of 32 pixels.
+void DrawColumnOf(Gpu& gpu, uint32_t x, float depth, const Rgba32F& tint = {1, 1, 1, 1}) {
+  const float left = float(x) / 16 - 1;
+  gpu.DrawRect(test_shaders::rect_PSTint,
+               {.tint = tint, .rectangle = {left, 1, left + 1 / 16.f, -1}, .extra = {depth, 0, 0, 0}});
+}
+
 class DepthTest : public RhiTest {
  protected:
-  // Draws column `x` of a target of 32 pixels.
-  void DrawColumn(uint32_t x, float depth, const Rgba32F& tint = {1, 1, 1, 1}) {
-    const float left = float(x) / 16 - 1;
-    gpu.DrawRect(test_shaders::rect_PSTint,
-                 {.tint = tint, .rectangle = {left, 1, left + 1 / 16.f, -1}, .extra = {depth, 0, 0, 0}});
-  }
+  void DrawColumn(uint32_t x, float depth, const Rgba32F& tint = {1, 1, 1, 1}) { DrawColumnOf(gpu, x, depth, tint); }
 };
 
-TEST_P(DepthTest, EachFunction) {
+std::string NameOf(Comparison f) {
+  static constexpr const char* kNames[] = {"never",   "less",      "equal",         "less_equal",
+                                           "greater", "not_equal", "greater_equal", "always"};
+  return kNames[std::find(std::begin(kFunctions), std::end(kFunctions), f) - kFunctions];
+}
+using DepthFunctionTest = RhiTestOf<Comparison>;
+
+// Column 0 is nearer than what is there, column 1 as near, column 2 farther.
+TEST_P(DepthFunctionTest, DepthFunc) {
   const float depths[3] = {0.25f, 0.5f, 0.75f};
   const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = Format::D32_Float});
   gpu.Clear(target, {0, 0, 0, 0}, 0.5f);
   gpu.SetTarget(target);
-  for (uint32_t i = 0; i < 24; ++i) {
-    context.OMSetDepthStencilState(gpu.DepthStencil({.depthFunc = kFunctions[i / 3]}).get());
-    DrawColumn(i, depths[i % 3]);
-  }
-  const auto passes = [&](uint32_t x) { return x < 24 && Passes(kFunctions[x / 3], depths[x % 3], 0.5); };
+  context.OMSetDepthStencilState(gpu.DepthStencil({.depthFunc = Parameter()}).get());
+  for (uint32_t i = 0; i < 3; ++i) DrawColumnOf(gpu, i, depths[i]);
+  const auto passes = [&](uint32_t x) { return x < 3 && Passes(Parameter(), depths[x], 0.5); };
   EXPECT_TRUE(Matches(gpu.Read(target), [&](uint32_t x, auto) { return passes(x) ? kWhite : kBlack; }));
   EXPECT_TRUE(Matches(gpu.Read(target.depth.get()),
-                      [&](uint32_t x, auto) { return std::array<float, 1>{passes(x) ? depths[x % 3] : 0.5f}; }));
+                      [&](uint32_t x, auto) { return std::array<float, 1>{passes(x) ? depths[x] : 0.5f}; }));
 }
 
 TEST_P(DepthTest, DefaultStateIsLessAndWrites) {
@@ -139,9 +149,9 @@ TEST_P(DepthTest, DepthBiasFollowsTheFormula) {
     context.IASetPrimitiveTopology(PrimitiveTopology::TriangleStrip);
     gpu.SetVertices(slanted.get(), sizeof(Vertex));
     context.Draw(4, 0);
-    EXPECT_TRUE(Matches(
-        gpu.Read(target.depth.get()),
-        [&](uint32_t x, auto) { return std::array<float, 1>{float(0.25 + (x + 0.5) * slope + c.expected)}; }, 2e-6))
+    EXPECT_TRUE(
+        Matches(gpu.Read(target.depth.get()),
+                [&](uint32_t x, auto) { return std::array<float, 1>{float(0.25 + (x + 0.5) * slope + c.expected)}; }))
         << c.bias << ' ' << c.scale << ' ' << c.clamp;
   }
 }
@@ -177,8 +187,15 @@ uint8_t Apply(StencilOp op, uint8_t old, uint8_t reference) {
 constexpr StencilOp kOps[] = {StencilOp::Keep,    StencilOp::Zero,   StencilOp::Replace, StencilOp::IncrSat,
                               StencilOp::DecrSat, StencilOp::Invert, StencilOp::Incr,    StencilOp::Decr};
 
-// Each operation in each of its three places; then every column is drawn where the stencil is what it should be.
-TEST_P(DepthTest, StencilOps) {
+std::string NameOf(StencilOp op) {
+  static constexpr const char* kNames[] = {"keep", "zero", "replace", "incr_sat", "decr_sat", "invert", "incr", "decr"};
+  return kNames[std::find(std::begin(kOps), std::end(kOps), op) - kOps];
+}
+
+// The operation in each of its three places, on three values; then every column is drawn where the stencil is what it
+// should be.
+using StencilOpTest = RhiTestOf<StencilOp>;
+TEST_P(StencilOpTest, StencilOps) {
   for (const uint8_t start : {uint8_t(0), uint8_t(100), uint8_t(255)}) {
     const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = StencilFormat(device)});
     gpu.Clear(target, {0, 0, 0, 0}, 0.5f, start);
@@ -186,37 +203,34 @@ TEST_P(DepthTest, StencilOps) {
     BlendDesc noColor;
     noColor.rt[0].writeMask = 0;
     context.OMSetBlendState(gpu.Blend(noColor).get());
-    for (uint32_t i = 0; i < 24; ++i) {
+    for (uint32_t place = 0; place < 3; ++place) {
       DepthStencilDesc d{.depthWrite = false, .stencilEnable = true};
-      const StencilOp op = kOps[i % 8];
-      if (i / 8 == 0) d.front.pass = op;
-      if (i / 8 == 1) d.front.depthFail = op;
-      if (i / 8 == 2) d.front.fail = op, d.front.func = Comparison::Never;
+      if (place == 0) d.front.pass = Parameter();
+      if (place == 1) d.front.depthFail = Parameter();
+      if (place == 2) d.front.fail = Parameter(), d.front.func = Comparison::Never;
       context.OMSetDepthStencilState(gpu.DepthStencil(d).get(), 42);
-      DrawColumn(i, i / 8 == 1 ? 0.75f : 0.25f);
+      DrawColumnOf(gpu, place, place == 1 ? 0.75f : 0.25f);
     }
     context.OMSetBlendState(nullptr);
-    for (uint32_t i = 0; i < 24; ++i) {
-      const DepthStencilDesc equal{.depthEnable = false, .stencilEnable = true, .front = {.func = Comparison::Equal}};
-      context.OMSetDepthStencilState(gpu.DepthStencil(equal).get(), Apply(kOps[i % 8], start, 42));
-      DrawColumn(i, 0.5f);
-    }
-    EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 24 ? kWhite : kBlack; })) << +start;
+    const DepthStencilDesc equal{.depthEnable = false, .stencilEnable = true, .front = {.func = Comparison::Equal}};
+    context.OMSetDepthStencilState(gpu.DepthStencil(equal).get(), Apply(Parameter(), start, 42));
+    for (uint32_t place = 0; place < 3; ++place) DrawColumnOf(gpu, place, 0.5f);
+    EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) { return x < 3 ? kWhite : kBlack; })) << +start;
   }
 }
 
-TEST_P(DepthTest, StencilFunctionsComparReferenceWithValue) {
+using StencilFunctionTest = RhiTestOf<Comparison>;
+TEST_P(StencilFunctionTest, StencilFunc) {
   const Target target = gpu.MakeTarget({.width = 32, .height = 1, .depthFormat = StencilFormat(device)});
   gpu.Clear(target, {0, 0, 0, 0}, 1, 5);
   gpu.SetTarget(target);
-  for (uint32_t i = 0; i < 24; ++i) {
-    context.OMSetDepthStencilState(
-        gpu.DepthStencil({.stencilEnable = true, .front = {.func = kFunctions[i / 3]}}).get(), 4 + i % 3);
-    DrawColumn(i, 0.5f);
+  for (uint32_t i = 0; i < 3; ++i) {
+    context.OMSetDepthStencilState(gpu.DepthStencil({.stencilEnable = true, .front = {.func = Parameter()}}).get(),
+                                   4 + i);
+    DrawColumnOf(gpu, i, 0.5f);
   }
-  EXPECT_TRUE(Matches(gpu.Read(target), [](uint32_t x, auto) {
-    return x < 24 && Passes(kFunctions[x / 3], 4 + x % 3, 5) ? kWhite : kBlack;
-  }));
+  EXPECT_TRUE(Matches(gpu.Read(target),
+                      [this](uint32_t x, auto) { return x < 3 && Passes(Parameter(), 4 + x, 5) ? kWhite : kBlack; }));
 }
 
 TEST_P(DepthTest, StencilMasksAndFaces) {
@@ -253,6 +267,9 @@ TEST_P(DepthTest, StencilMasksAndFaces) {
 }
 
 RHI_ON_EVERY_BACKEND(DepthTest);
+RHI_MATRIX(DepthFunctionTest, kFunctions, [](Comparison f) { return NameOf(f); });
+RHI_MATRIX(StencilOpTest, kOps, [](StencilOp op) { return NameOf(op); });
+RHI_MATRIX(StencilFunctionTest, kFunctions, [](Comparison f) { return NameOf(f); });
 
 }  // namespace
 }  // namespace rhi_test

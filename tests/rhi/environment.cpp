@@ -25,9 +25,9 @@ class DevicesEnvironment final : public testing::Environment {
 }  // namespace
 
 Gpu& SharedGpu(rhi::Backend backend) {
-  std::unique_ptr<Gpu>& gpu = All()[backend];
-  if (!gpu) gpu = std::make_unique<Gpu>(backend);
-  return *gpu;
+  const auto found = All().find(backend);
+  if (found != All().end()) return *found->second;
+  return *All().emplace(backend, std::make_unique<Gpu>(backend)).first->second;
 }
 
 }  // namespace rhi_test

@@ -185,7 +185,8 @@ TEST_P(FormatTest, TexelsAreReadAsTheyAreWritten) {
     gpu.SetTexture(Stage::Pixel, 0, t.get());
     gpu.DrawRect(LoaderOf(f));
     const auto oracle = [&](uint32_t x, uint32_t y) { return Decode(f, &texels[(y * 8 + x) * info.blockBytes]); };
-    EXPECT_TRUE(Matches(gpu.Read(target), oracle, info.sRGB ? 0.003 : 1e-6)) << ToString(f);
+    EXPECT_TRUE(Matches(gpu.Read(target), oracle, Within(info.sRGB ? "srgb_decoding_of_formats" : "unorm_to_float")))
+        << ToString(f);
   }
 }
 
@@ -205,7 +206,9 @@ TEST_P(FormatTest, TargetsTakeDrawsAndClears) {
     for (const uint32_t x : {0u, 7u}) {
       const Rgba32F seen = Decode(f, &image.bytes[x * info.blockBytes]);
       for (size_t c = 0; c < info.components; ++c)
-        EXPECT_NEAR(seen[c], value[c], info.isInteger || info.isFloat ? 0.0 : 1.0 / 254) << ToString(f) << x << c;
+        EXPECT_TRUE(
+            Agrees(seen[c], value[c], info.isInteger || info.isFloat ? conformance::kExact : Within("format_step")))
+            << ToString(f) << x << c;
     }
   }
 }
@@ -228,7 +231,10 @@ TEST_P(FormatTest, BlendableFormatsBlend) {
     const Rgba32F seen = Decode(f, gpu.Read(target).bytes.data()), sum{0.75f, 0.375f, 0.5f, 0.75f};
     const bool coarse = f == Format::R10G10B10A2_UNorm;
     for (size_t c = 0; c < info.components; ++c)
-      EXPECT_NEAR(seen[c], sum[c], info.isFloat ? 0.0 : coarse && c == 3 ? 0.34 : 0.006) << ToString(f) << c;
+      EXPECT_TRUE(
+          Agrees(seen[c], sum[c],
+                 info.isFloat ? conformance::kExact : Within(coarse && c == 3 ? "two_bit_blend" : "format_blend")))
+          << ToString(f) << c;
   }
 }
 
@@ -239,7 +245,7 @@ TEST_P(FormatTest, ResolveAndMipsWorkWhereTheyAreOffered) {
       const Target target = gpu.MakeTarget({.width = 2, .height = 2, .format = f, .samples = 4});
       gpu.Clear(target, {0.25f, 0.5f, 0.75f, 1});
       const Rgba32F seen = Decode(f, gpu.Read(target).bytes.data());
-      EXPECT_NEAR(seen[0], 0.25f, 0.005) << ToString(f);
+      EXPECT_TRUE(Agrees(seen[0], 0.25, Within("format_resolve"))) << ToString(f);
     }
     if (!Has(f, FormatSupport::MipAutogen)) continue;
     const TextureDesc desc{
@@ -277,14 +283,15 @@ TEST_P(FormatTest, UnorderedAccessFormatsAreWritten) {
     context.Dispatch(1, 1, 1);
     const Rgba32F seen = Decode(f, gpu.Read(t.get()).bytes.data());
     for (size_t c = 0; c < info.components; ++c)
-      EXPECT_NEAR(seen[c], value[c], info.isInteger || info.isFloat ? 0.0 : 1.0 / 254) << ToString(f) << c;
+      EXPECT_TRUE(
+          Agrees(seen[c], value[c], info.isInteger || info.isFloat ? conformance::kExact : Within("format_step")))
+          << ToString(f) << c;
   }
 }
 
 // Linear filtering: halfway between two texels.
 TEST_P(FormatTest, LinearFormatsAreFiltered) {
   for (const Format f : AllFormats()) {
-    const FormatInfo& info = GetFormatInfo(f);
     if (!Has(f, FormatSupport::SampleLinear) || !Has(f, FormatSupport::RenderTarget)) continue;
     const TextureDesc desc{.width = 2, .height = 1, .format = f, .bind = Bind::RenderTarget | Bind::ShaderResource};
     const Ref<ITexture> t = gpu.Texture(desc);
@@ -297,7 +304,7 @@ TEST_P(FormatTest, LinearFormatsAreFiltered) {
     gpu.SetTexture(Stage::Pixel, 0, t.get());
     gpu.SetSampler(Stage::Pixel, 0, {});
     gpu.DrawRect(test_shaders::sample_PSSample, {.extra = {0, 1, 0, 0}});
-    EXPECT_NEAR(gpu.Read(target).At<Rgba32F>(0, 0)[0], 0.5f, 0.01) << ToString(f) << +info.components;
+    EXPECT_TRUE(Agrees(gpu.Read(target).At<Rgba32F>(0, 0)[0], 0.5, Within("format_filter"))) << ToString(f);
   }
 }
 

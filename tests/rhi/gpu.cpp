@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "../conformance/recorder.h"
 #include "rhi_gl/rhi_gl.h"
 #include "rhi_test_shaders/shaders.h"
 #include "rhi_vulkan/rhi_vulkan.h"
@@ -14,21 +15,44 @@ using namespace rhi;
 
 std::vector<Backend> Backends() { return {Backend::Vulkan, Backend::OpenGL}; }
 
-std::string BackendName(Backend b) { return b == Backend::Vulkan ? "vulkan" : "gl"; }
-
 Status CreateDevice(Backend backend, const DeviceDesc& desc, Ref<IDevice>* device) {
   return backend == Backend::Vulkan ? rhi_vulkan::CreateDevice(desc, device) : rhi_gl::CreateDevice(desc, device);
 }
 
-DeviceDesc TestDeviceDesc(IMessageSink* sink) {
+namespace {
+
+std::map<Backend, std::string>& Adapters() {
+  static std::map<Backend, std::string> names;
+  return names;
+}
+
+conformance::Component ComponentOf(Format format) {
+  const FormatInfo& f = GetFormatInfo(format);
+  const uint32_t bits = f.components ? 8u * f.blockBytes / f.components : 0;
+  const bool even = f.blockSize == 1 && bits * f.components == 8u * f.blockBytes;
+  if (!even || (f.depth && f.stencil)) return Component::Packed;
+  if (bits == 8) return Component::U8;
+  if (bits == 16) return f.isFloat ? Component::F16 : Component::U16;
+  if (bits == 32) return f.isFloat ? Component::F32 : Component::U32;
+  return Component::Packed;
+}
+
+}  // namespace
+
+void UseAdapter(Backend backend, const std::string& name) { Adapters()[backend] = name; }
+
+DeviceDesc TestDeviceDesc(Backend backend, IMessageSink* sink) {
   DeviceDesc desc;
-  desc.apiValidation = desc.syncValidation = desc.preferSoftware = true;
+  desc.apiValidation = desc.syncValidation = true;
+  const std::string& adapter = Adapters()[backend];
+  desc.adapter = adapter.c_str();
+  desc.preferSoftware = adapter.empty();
   desc.sink = sink;
   return desc;
 }
 
 Gpu::Gpu(Backend b) : backend(b) {
-  Require(CreateDevice(b, TestDeviceDesc(&sink), &device), "CreateDevice");
+  Require(CreateDevice(b, TestDeviceDesc(b, &sink), &device), "CreateDevice");
   context = device->ImmediateContext();
   draw_ = Buffer(
       {.byteWidth = sizeof(DrawConstants), .usage = Usage::Dynamic, .bind = Bind::ConstantBuffer, .name = "draw"});
@@ -230,12 +254,15 @@ Image Gpu::Read(ITexture* texture, uint32_t mip, uint32_t slice) {
   image.bytes.resize(size_t(image.width) * image.height * image.texelBytes);
   Require(device->ReadBack(texture, Subresource(mip, slice, d.mipLevels), image.bytes.data(), image.bytes.size()),
           "ReadBack");
+  image.component = ComponentOf(d.format);
+  conformance::TheRecorder().ReadBack(image);
   return image;
 }
 
 std::vector<uint8_t> Gpu::Read(IBuffer* buffer, uint32_t offset, uint32_t size) {
   std::vector<uint8_t> bytes(size);
   Require(device->ReadBack(buffer, offset, size, bytes.data()), "ReadBack");
+  conformance::TheRecorder().ReadBack({size, 1, 1, bytes});
   return bytes;
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 
+#include "../conformance/drivers.h"
 #include "image.h"
 #include "rhi/rhi.h"
 #include "test_sink.h"
@@ -17,9 +18,12 @@ namespace rhi_test {
 // Every backend that this build has. All are required: a test fails where one cannot be made.
 std::vector<rhi::Backend> Backends();
 rhi::Status CreateDevice(rhi::Backend, const rhi::DeviceDesc&, rhi::Ref<rhi::IDevice>*);
-std::string BackendName(rhi::Backend);  // "vulkan", "gl"
-// Headless, on a CPU rasteriser where there is one, with API and synchronization validation.
-rhi::DeviceDesc TestDeviceDesc(rhi::IMessageSink*);
+using conformance::BackendName;
+// Headless, with API and synchronization validation; on the adapter that UseAdapter named, or on a CPU rasteriser where
+// there is one.
+rhi::DeviceDesc TestDeviceDesc(rhi::Backend, rhi::IMessageSink*);
+// Part of the name of the adapter of all devices of this backend that are made from now on.
+void UseAdapter(rhi::Backend, const std::string& name);
 
 // Where a picture is drawn: a colour texture and perhaps a depth texture, with their views.
 struct Target {

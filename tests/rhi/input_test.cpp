@@ -49,7 +49,7 @@ class InputTest : public RhiTest {
   Ref<IBuffer> vertices, indexBuffer;
 };
 
-TEST_P(InputTest, VertexIdExcludesTheStart) {
+TEST_P(InputTest, SvVertexidExcludesBase) {
   Prepare();
   context.Draw(12, 0);
   ExpectIds(0, 4, 1, 0, "from 0");
@@ -58,7 +58,7 @@ TEST_P(InputTest, VertexIdExcludesTheStart) {
 }
 
 // Direct3D: SV_VertexID of an indexed draw is the index, without the base vertex.
-TEST_P(InputTest, VertexIdExcludesTheBaseVertex) {
+TEST_P(InputTest, BaseVertex) {
   Prepare();
   context.DrawIndexed(12, 0, 0);
   ExpectIds(0, 4, 1, 0, "plain");
@@ -70,7 +70,7 @@ TEST_P(InputTest, VertexIdExcludesTheBaseVertex) {
   ExpectIds(2, 2, 1, 12, "base vertex -6");
 }
 
-TEST_P(InputTest, InstanceIdExcludesTheStart) {
+TEST_P(InputTest, SvInstanceidExcludesBase) {
   Prepare();
   context.DrawInstanced(6, 3, 3, 0);
   ExpectIds(1, 2, 3, 0, "start 0");
@@ -80,7 +80,7 @@ TEST_P(InputTest, InstanceIdExcludesTheStart) {
   ExpectIds(2, 2, 3, 3, "indexed, start 5");
 }
 
-TEST_P(InputTest, IndirectIdsExcludeTheStarts) {
+TEST_P(InputTest, SvIdsExcludeBaseIndirect) {
   RHI_NEEDS_CAP(drawIndirect);
   Prepare();
   const DrawArgs direct{6, 3, 3, 7};
@@ -133,12 +133,7 @@ TEST_P(InputTest, VertexFormats) {
   context.IASetInputLayout(gpu.Layout(layout, gpu.Shader(test_shaders::ids_VSFormats).get()).get());
   gpu.SetVertices(b.get(), sizeof(Vertex));
   context.Draw(3, 0);
-  EXPECT_TRUE(Matches(
-      gpu.Read(one),
-      [](auto, auto) {
-        return Rgba8{51, 102, 128, 255};
-      },
-      1));
+  EXPECT_TRUE(Matches(gpu.Read(one), [](auto, auto) { return Rgba8{51, 102, 128, 255}; }));
 }
 
 // Attributes for each instance, from slots of their own, stepping every instance and every second one; the start

@@ -25,7 +25,7 @@ TEST_P(MsaaTest, ResolveOfWholePixelsIsExact) {
   }));
 }
 
-TEST_P(MsaaTest, ResolveAveragesTheSamples) {
+TEST_P(MsaaTest, MsaaResolve) {
   const Target target = Start(16);
   gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {-1, 1, 1 / 16.f, -1}});  // to the middle of pixel 8
   EXPECT_TRUE(Matches(
@@ -34,7 +34,7 @@ TEST_P(MsaaTest, ResolveAveragesTheSamples) {
         const uint8_t v = x < 8 ? 255 : x == 8 ? 128 : 0;
         return Rgba8{v, v, v, v};
       },
-      1));
+      Within("resolve_average")));
 }
 
 TEST_P(MsaaTest, ResolveIntoALayer) {
@@ -63,11 +63,11 @@ TEST_P(MsaaTest, SrgbResolveIsLinear) {
   context.RSSetState(gpu.Rasterizer({.multisample = true}).get());
   gpu.DrawRect(test_shaders::rect_PSTint, {.rectangle = {-1, 1, -0.75f, -1}});  // half of pixel 0
   const Image image = gpu.Read(target);
-  EXPECT_NEAR(image.At<Rgba8>(0, 0)[0], ToUnorm8(LinearToSrgb(0.5)), 1);
+  EXPECT_TRUE(Agrees(image.At<Rgba8>(0, 0)[0], ToUnorm8(LinearToSrgb(0.5)), Within("linear_to_srgb")));
 }
 
 // Alpha a covers between a * 4 - 1 and a * 4 + 1 samples, and never fewer than a smaller alpha does.
-TEST_P(MsaaTest, AlphaToCoverageBounds) {
+TEST_P(MsaaTest, A2cCoverageBounds) {
   RHI_NEEDS_CAP(alphaToCoverage);
   const Target target = Start(256);
   BlendDesc a2c;
@@ -79,7 +79,7 @@ TEST_P(MsaaTest, AlphaToCoverageBounds) {
   for (uint32_t x = 0; x < 256; ++x) {
     double covered = 0;  // of four pixels of the column: drivers may dither
     for (uint32_t y = 0; y < 4; ++y) covered += image.At<Rgba8>(x, y)[0] / 255.0 / 4;
-    EXPECT_NEAR(covered, x / 255.0, 0.26) << x;
+    EXPECT_TRUE(Agrees(covered, x / 255.0, Within("alpha_to_coverage"))) << x;
     EXPECT_GE(covered, last - 0.01) << x;
     last = covered;
   }
@@ -102,7 +102,7 @@ TEST_P(MsaaTest, SampleMask) {
         const uint8_t v = ToUnorm8(samples[x / 2] / 4.0);
         return Rgba8{v, v, v, v};
       },
-      1));
+      Within("resolve_average")));
 }
 
 TEST_P(MsaaTest, DepthOfEachSample) {
@@ -118,7 +118,7 @@ TEST_P(MsaaTest, DepthOfEachSample) {
       [](uint32_t x, auto) {
         return x < 8 ? Rgba8{255, 0, 0, 255} : x == 8 ? Rgba8{128, 128, 0, 255} : Rgba8{0, 255, 0, 255};
       },
-      1));
+      Within("resolve_average")));
 }
 
 // Shaders read single samples; their sum is what a resolve gives.

@@ -78,7 +78,7 @@ TEST_P(QueryTest, OcclusionPredicate) {
   EXPECT_FALSE(gpu.Result<bool>(hidden.get()));
 }
 
-TEST_P(QueryTest, PipelineStatsOfVerticesAndGsPrims) {
+TEST_P(QueryTest, PipelineStatsGsPrims) {
   RHI_NEEDS_CAP(pipelineStatistics);
   RHI_NEEDS_CAP(geometryShader);
   Start();

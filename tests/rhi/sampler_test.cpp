@@ -1,4 +1,6 @@
 // Samplers: address modes, borders, filters, level of detail, comparison, and how they pair with textures.
+#include <algorithm>
+
 #include "rhi_fixture.h"
 
 namespace rhi_test {
@@ -8,26 +10,25 @@ using namespace rhi;
 
 constexpr SamplerDesc kPoint{.min = Filter::Point, .mag = Filter::Point, .mip = Filter::Point};
 
-class SamplerTest : public RhiTest {
- protected:
-  // 4 x 4, each texel another value.
-  Ref<ITexture> Small() {
-    return gpu.TextureOf<Rgba8>({.width = 4, .height = 4, .format = Format::RGBA8_UNorm},
-                                [](uint32_t x, uint32_t y, auto, auto) {
-                                  return Rgba8{uint8_t(x * 60 + 10), uint8_t(y * 50 + 20), uint8_t(x * y * 20), 255};
-                                });
-  }
-  // u and v go from -1 to 2.
-  Image DrawRepeated(const SamplerDesc& desc) {
-    const Target target = gpu.MakeTarget({.width = 48, .height = 48});
-    gpu.SetTarget(target);
-    gpu.SetTexture(Stage::Pixel, 0, Small().get());
-    gpu.SetSampler(Stage::Pixel, 0, desc);
-    gpu.DrawRect(test_shaders::sample_PSSample, {.extra = {0, 3, -1, 0}});
-    return gpu.Read(target);
-  }
-};
+// 4 x 4, each texel another value.
+Ref<ITexture> Small(Gpu& gpu) {
+  return gpu.TextureOf<Rgba8>({.width = 4, .height = 4, .format = Format::RGBA8_UNorm},
+                              [](uint32_t x, uint32_t y, auto, auto) {
+                                return Rgba8{uint8_t(x * 60 + 10), uint8_t(y * 50 + 20), uint8_t(x * y * 20), 255};
+                              });
+}
+// u and v go from -1 to 2.
+Image DrawRepeated(Gpu& gpu, const SamplerDesc& desc) {
+  const Target target = gpu.MakeTarget({.width = 48, .height = 48});
+  gpu.SetTarget(target);
+  gpu.SetTexture(Stage::Pixel, 0, Small(gpu).get());
+  gpu.SetSampler(Stage::Pixel, 0, desc);
+  gpu.DrawRect(test_shaders::sample_PSSample, {.extra = {0, 3, -1, 0}});
+  return gpu.Read(target);
+}
+using SamplerTest = RhiTest;
 
+constexpr AddressMode kModes[] = {AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border};
 int Address(int i, AddressMode mode) {  // of four texels; -1: the border
   if (mode == AddressMode::Wrap) return i & 3;
   if (mode == AddressMode::Clamp) return std::min(3, std::max(0, i));
@@ -38,54 +39,76 @@ Rgba8 SmallTexel(int x, int y, const Rgba8& border) {
   return x < 0 || y < 0 ? border : Rgba8{uint8_t(x * 60 + 10), uint8_t(y * 50 + 20), uint8_t(x * y * 20), 255};
 }
 
-TEST_P(SamplerTest, WrapModesOfEachAxis) {
-  const AddressMode modes[] = {AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border};
-  for (const AddressMode u : modes)
-    for (const AddressMode v : modes) {
-      SamplerDesc desc = kPoint;
-      desc.u = u;
-      desc.v = v;
-      const auto oracle = [=](uint32_t x, uint32_t y) {
-        const int i = int(std::floor((x + 0.5) / 4)) - 4, j = int(std::floor((y + 0.5) / 4)) - 4;
-        return SmallTexel(Address(i, u), Address(j, v), {0, 0, 0, 0});
-      };
-      EXPECT_TRUE(Matches(DrawRepeated(desc), oracle)) << int(u) << ' ' << int(v);
-    }
+struct AddressModes {
+  AddressMode u, v;
+};
+std::string NameOf(AddressMode mode) {
+  static constexpr const char* kNames[] = {"wrap", "mirror", "clamp", "border"};
+  return kNames[std::find(std::begin(kModes), std::end(kModes), mode) - kModes];
+}
+std::string NameOf(const AddressModes& m) { return NameOf(m.u) + "_" + NameOf(m.v); }
+std::vector<AddressModes> EveryPairOfModes() {
+  std::vector<AddressModes> all;
+  for (const AddressMode u : kModes)
+    for (const AddressMode v : kModes) all.push_back({u, v});
+  return all;
 }
 
-TEST_P(SamplerTest, LinearFilterInEachMode) {
-  for (const AddressMode mode : {AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border}) {
-    const SamplerDesc desc{.u = mode, .v = mode};
-    const auto oracle = [=](uint32_t x, uint32_t y) {
-      const double s = (x + 0.5) / 4 - 4.5, t = (y + 0.5) / 4 - 4.5;
-      const int i = int(std::floor(s)), j = int(std::floor(t));
-      Rgba8 result;
-      for (size_t c = 0; c < 4; ++c) {
-        double sum = 0;
-        for (int k = 0; k < 4; ++k) {
-          const double wx = (k & 1) ? s - i : 1 - (s - i), wy = (k & 2) ? t - j : 1 - (t - j);
-          sum += wx * wy * SmallTexel(Address(i + (k & 1), mode), Address(j + (k >> 1), mode), {0, 0, 0, 0})[c];
-        }
-        result[c] = uint8_t(sum + 0.5);
+class SamplerAddressTest : public RhiTestOf<AddressModes> {
+ protected:
+  SamplerDesc Desc(SamplerDesc desc) const {
+    desc.u = Parameter().u;
+    desc.v = Parameter().v;
+    return desc;
+  }
+};
+
+TEST_P(SamplerAddressTest, WrapModes) {
+  const auto oracle = [this](uint32_t x, uint32_t y) {
+    const int i = int(std::floor((x + 0.5) / 4)) - 4, j = int(std::floor((y + 0.5) / 4)) - 4;
+    return SmallTexel(Address(i, Parameter().u), Address(j, Parameter().v), {0, 0, 0, 0});
+  };
+  EXPECT_TRUE(Matches(DrawRepeated(gpu, Desc(kPoint)), oracle));
+}
+
+TEST_P(SamplerAddressTest, LinearFilter) {
+  const auto oracle = [this](uint32_t x, uint32_t y) {
+    const double s = (x + 0.5) / 4 - 4.5, t = (y + 0.5) / 4 - 4.5;
+    const int i = int(std::floor(s)), j = int(std::floor(t));
+    Rgba8 result;
+    for (size_t c = 0; c < 4; ++c) {
+      double sum = 0;
+      for (int k = 0; k < 4; ++k) {
+        const double wx = (k & 1) ? s - i : 1 - (s - i), wy = (k & 2) ? t - j : 1 - (t - j);
+        const int u = Address(i + (k & 1), Parameter().u), v = Address(j + (k >> 1), Parameter().v);
+        sum += wx * wy * SmallTexel(u, v, {0, 0, 0, 0})[c];
       }
-      return result;
-    };
-    EXPECT_TRUE(Matches(DrawRepeated(desc), oracle, 2)) << int(mode);
-  }
+      result[c] = uint8_t(sum + 0.5);
+    }
+    return result;
+  };
+  EXPECT_TRUE(Matches(DrawRepeated(gpu, Desc({})), oracle, Within("filter_weights")));
 }
 
-TEST_P(SamplerTest, BordersThatEveryDriverHas) {
-  const std::array<float, 4> borders[] = {{0, 0, 0, 0}, {0, 0, 0, 1}, {1, 1, 1, 1}};
-  for (const auto& border : borders) {
-    SamplerDesc desc = kPoint;
-    desc.u = desc.v = AddressMode::Border;
-    desc.border = border;
-    const Image image = DrawRepeated(desc);
-    const Rgba8 expected{ToUnorm8(border[0]), ToUnorm8(border[1]), ToUnorm8(border[2]), ToUnorm8(border[3])};
-    EXPECT_EQ(image.At<Rgba8>(3, 20), expected);
-    EXPECT_EQ(image.At<Rgba8>(20, 45), expected);
-    EXPECT_EQ(image.At<Rgba8>(16, 16), SmallTexel(0, 0, {}));
-  }
+struct BorderColor {
+  const char* name;
+  std::array<float, 4> color;
+};
+constexpr BorderColor kBorders[] = {{"transparent", {0, 0, 0, 0}}, {"black", {0, 0, 0, 1}}, {"white", {1, 1, 1, 1}}};
+const char* NameOf(const BorderColor& b) { return b.name; }
+
+// The ones that every driver has.
+using SamplerBorderTest = RhiTestOf<BorderColor>;
+TEST_P(SamplerBorderTest, Border) {
+  SamplerDesc desc = kPoint;
+  desc.u = desc.v = AddressMode::Border;
+  desc.border = Parameter().color;
+  Rgba8 border;
+  for (size_t c = 0; c < 4; ++c) border[c] = ToUnorm8(Parameter().color[c]);
+  EXPECT_TRUE(Matches(DrawRepeated(gpu, desc), [&](uint32_t x, uint32_t y) {
+    const bool inside = x >= 16 && x < 32 && y >= 16 && y < 32;
+    return inside ? SmallTexel(int(x - 16) / 4, int(y - 16) / 4, {}) : border;
+  }));
 }
 
 TEST_P(SamplerTest, OtherBordersByCap) {
@@ -93,7 +116,7 @@ TEST_P(SamplerTest, OtherBordersByCap) {
   desc.u = desc.v = AddressMode::Border;
   desc.border = {1, 0.2f, 0.4f, 0.6f};
   if (Caps().customBorderColor) {
-    EXPECT_TRUE(Near(DrawRepeated(desc).At<Rgba8>(3, 20), Rgba8{255, 51, 102, 153}, 1));
+    EXPECT_EQ(DrawRepeated(gpu, desc).At<Rgba8>(3, 20), (Rgba8{255, 51, 102, 153}));
   } else {
     sink.Expect(MsgCode::CapMissing, "no customBorderColor");
     Ref<ISamplerState> none;
@@ -125,12 +148,10 @@ TEST_P(SamplerTest, LodClampBiasAndMipFilter) {
   for (const Case& c : cases) {
     gpu.SetSampler(Stage::Pixel, 0, {.mip = c.mip, .mipBias = c.bias, .minLod = c.minLod, .maxLod = c.maxLod});
     gpu.DrawRect(test_shaders::sample_PSSampleLevel, {.extra = {0, 0, 0, c.level}});
-    EXPECT_TRUE(Matches(
-        gpu.Read(target),
-        [&](auto, auto) {
-          return Rgba8{c.expected, 0, 0, 255};
-        },
-        1))
+    EXPECT_TRUE(Matches(gpu.Read(target),
+                        [&](auto, auto) {
+                          return Rgba8{c.expected, 0, 0, 255};
+                        }))
         << c.level << ' ' << c.minLod;
   }
 }
@@ -151,7 +172,7 @@ TEST_P(SamplerTest, ImplicitLodAndBias) {
 TEST_P(SamplerTest, OneTextureTwoSamplers) {
   const Target target = gpu.MakeTarget({.width = 48, .height = 48});
   gpu.SetTarget(target);
-  gpu.SetTexture(Stage::Pixel, 0, Small().get());
+  gpu.SetTexture(Stage::Pixel, 0, Small(gpu).get());
   gpu.SetSampler(Stage::Pixel, 0, kPoint);
   gpu.SetSampler(Stage::Pixel, 1, {});
   gpu.DrawRect(test_shaders::sample_PSTwoSamplers);
@@ -254,6 +275,8 @@ TEST_P(SamplerTest, AnisotropyOutOfRangeIsRefused) {
 }
 
 RHI_ON_EVERY_BACKEND(SamplerTest);
+RHI_MATRIX(SamplerAddressTest, EveryPairOfModes(), [](const AddressModes& m) { return NameOf(m); });
+RHI_MATRIX(SamplerBorderTest, kBorders, [](const BorderColor& b) { return NameOf(b); });
 
 }  // namespace
 }  // namespace rhi_test

@@ -115,7 +115,7 @@ TEST_P(StateTest, PipelineCacheBlobRoundtrip) {
   for (const bool broken : {false, true}) {
     if (broken)
       for (uint8_t& byte : blob) byte = uint8_t(~byte);
-    DeviceDesc desc = TestDeviceDesc(&own);
+    DeviceDesc desc = TestDeviceDesc(GetParam(), &own);
     desc.pipelineCache = blob.data();
     desc.pipelineCacheSize = blob.size();
     Ref<IDevice> d;

@@ -31,7 +31,7 @@ TEST_P(TextureTest, ArrayInitOfEachLayerAndMip) {
       EXPECT_TRUE(Matches(gpu.Read(t.get(), mip, slice), MarkOf(mip, slice))) << mip << ' ' << slice;
 }
 
-TEST_P(TextureTest, ArrayUpdateOfEachLayerAndMip) {
+TEST_P(TextureTest, ArrayUploadEachLayerMip) {
   const Ref<ITexture> t = gpu.Texture(kArray);
   for (uint32_t slice = 0; slice < 5; ++slice)
     for (uint32_t mip = 0; mip < 5; ++mip) {
@@ -59,7 +59,7 @@ TEST_P(TextureTest, UpdateOfABoxWithRowPitch) {
 }
 
 // Sizes that are no powers of two, one byte a texel: rows whose length is no multiple of 4.
-TEST_P(TextureTest, NpotRowsOfEveryByteCount) {
+TEST_P(TextureTest, NpotRowpitch) {
   const auto one = [](uint32_t x, uint32_t y) { return std::array<uint8_t, 1>{uint8_t(x * 5 + y * 3)}; };
   const auto two = [](uint32_t x, uint32_t y) { return std::array<uint8_t, 2>{uint8_t(x), uint8_t(y)}; };
   for (const uint32_t width : {1u, 3u, 5u, 7u, 13u}) {
@@ -74,7 +74,7 @@ TEST_P(TextureTest, NpotRowsOfEveryByteCount) {
   }
 }
 
-TEST_P(TextureTest, ReadBackWithRowPitch) {
+TEST_P(TextureTest, ArrayReadbackLayer) {
   const Ref<ITexture> t = gpu.TextureOf<Rgba8>(kArray, Mark);
   std::vector<uint8_t> out(100 * 8, 77);
   ASSERT_EQ(device.ReadBack(t.get(), Subresource(0, 1, 5), out.data(), out.size(), 100), Status::Ok);
@@ -88,7 +88,7 @@ TEST_P(TextureTest, ReadBackWithRowPitch) {
   }
 }
 
-TEST_P(TextureTest, CopyBetweenLayersAndMips) {
+TEST_P(TextureTest, CopyBetweenLayers) {
   const Ref<ITexture> a = gpu.TextureOf<Rgba8>(kArray, Mark), b = gpu.Texture(kArray);
   context.CopySubresourceRegion(b.get(), Subresource(0, 4, 5), 0, 0, 0, a.get(), Subresource(0, 1, 5), nullptr);
   context.CopySubresourceRegion(b.get(), Subresource(1, 4, 5), 0, 0, 0, a.get(), Subresource(1, 2, 5), nullptr);
@@ -144,7 +144,7 @@ TEST_P(TextureTest, StagingWriteThenCopy) {
   EXPECT_TRUE(Matches(gpu.Read(t.get()), MarkOf(0, 0)));
 }
 
-TEST_P(TextureTest, ArrayRenderToLayerAndMip) {
+TEST_P(TextureTest, ArrayRenderToLayer) {
   TextureDesc desc = kArray;
   desc.bind = Bind::RenderTarget | Bind::ShaderResource;
   const Ref<ITexture> t = gpu.TextureOf<Rgba8>(desc, Mark);

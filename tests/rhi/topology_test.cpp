@@ -1,4 +1,5 @@
 // Every topology: which vertices make up each primitive, in which order, read by a geometry shader.
+#include <algorithm>
 #include <map>
 
 #include "rhi_fixture.h"
@@ -70,7 +71,9 @@ const ShaderBlob& ReaderOf(PrimitiveTopology t) {
   }
 }
 
-class TopologyTest : public RhiTest {
+// What these cases share; some have a parameter.
+template <class Fixture>
+class PrimitiveCase : public Fixture {
  protected:
   // The picture that prims.hlsl draws of these primitives. `ids` maps vertex numbers to what SV_VertexID was.
   static auto Picture(const Primitives& primitives, const std::vector<uint32_t>& ids) {
@@ -88,15 +91,19 @@ class TopologyTest : public RhiTest {
     return v;
   }
   void Prepare(PrimitiveTopology topology) {
-    target = gpu.MakeTarget({.width = 16, .height = 2});
-    gpu.Clear(target, {0, 0, 0, 0});
-    gpu.SetTarget(target);
-    gpu.SetShaders(test_shaders::prims_VSPrimitive, test_shaders::prims_PSPrimitive);
-    gpu.SetGeometryShader(ReaderOf(topology));
-    context.IASetPrimitiveTopology(topology);
+    Gpu& g = this->gpu;
+    target = g.MakeTarget({.width = 16, .height = 2});
+    g.Clear(target, {0, 0, 0, 0});
+    g.SetTarget(target);
+    g.SetShaders(test_shaders::prims_VSPrimitive, test_shaders::prims_PSPrimitive);
+    g.SetGeometryShader(ReaderOf(topology));
+    g.context->IASetPrimitiveTopology(topology);
   }
   Target target;
 };
+using TopologyTest = PrimitiveCase<RhiTest>;
+using TopologyEachTest = PrimitiveCase<RhiTestOf<PrimitiveTopology>>;
+using GeometryInputTest = PrimitiveCase<RhiTest>;
 
 constexpr PrimitiveTopology kAll[] = {
     PrimitiveTopology::PointList,    PrimitiveTopology::LineList,        PrimitiveTopology::LineStrip,
@@ -104,33 +111,48 @@ constexpr PrimitiveTopology kAll[] = {
     PrimitiveTopology::LineStripAdj, PrimitiveTopology::TriangleListAdj, PrimitiveTopology::TriangleStripAdj};
 
 // Also the orders within primitives with adjacency, and that incomplete ones are dropped: every count from 1 to 14.
-TEST_P(TopologyTest, EachTopologyAndCount) {
+TEST_P(TopologyEachTest, Each) {
   RHI_NEEDS_CAP(geometryShader);
-  for (const PrimitiveTopology topology : kAll)
-    for (uint32_t count = 1; count <= 14; ++count) {
-      Prepare(topology);
-      context.Draw(count, 0);
-      EXPECT_TRUE(Matches(gpu.Read(target), Picture(Assemble(topology, count), Counting(count))))
-          << ToString(topology) << ' ' << count;
-    }
+  for (uint32_t count = 1; count <= 14; ++count) {
+    Prepare(Parameter());
+    context.Draw(count, 0);
+    EXPECT_TRUE(Matches(gpu.Read(target), Picture(Assemble(Parameter(), count), Counting(count)))) << count;
+  }
 }
 
-TEST_P(TopologyTest, IndexedAdjacency) {
+// The same vertices through indices of 16 and 32 bits.
+TEST_P(TopologyEachTest, Indexed) {
   RHI_NEEDS_CAP(geometryShader);
   const std::vector<uint32_t> indices{7, 3, 9, 1, 20, 4, 4, 2, 100, 50, 25, 12, 6, 5};
   const Ref<IBuffer> wide = gpu.BufferOf(Bind::IndexBuffer, indices);
   const Ref<IBuffer> narrow = gpu.BufferOf(Bind::IndexBuffer, std::vector<uint16_t>(indices.begin(), indices.end()));
-  for (const PrimitiveTopology topology : {PrimitiveTopology::LineListAdj, PrimitiveTopology::LineStripAdj,
-                                           PrimitiveTopology::TriangleListAdj, PrimitiveTopology::TriangleStripAdj})
-    for (const bool is16 : {false, true}) {
-      Prepare(topology);
-      context.IASetIndexBuffer(is16 ? narrow.get() : wide.get(), is16 ? Format::R16_UInt : Format::R32_UInt, 0);
-      context.DrawIndexed(14, 0, 0);
-      EXPECT_TRUE(Matches(gpu.Read(target), Picture(Assemble(topology, 14), indices))) << ToString(topology) << is16;
-    }
+  for (const bool is16 : {false, true}) {
+    Prepare(Parameter());
+    context.IASetIndexBuffer(is16 ? narrow.get() : wide.get(), is16 ? Format::R16_UInt : Format::R32_UInt, 0);
+    context.DrawIndexed(14, 0, 0);
+    EXPECT_TRUE(Matches(gpu.Read(target), Picture(Assemble(Parameter(), 14), indices))) << is16;
+  }
 }
 
-TEST_P(TopologyTest, LineListAdjOfAnOddCountDropsTheRest) {
+// Direct3D 10: neighbour of the first end, first end, second end, its neighbour.
+TEST_P(GeometryInputTest, LineadjVertexOrder) {
+  RHI_NEEDS_CAP(geometryShader);
+  Prepare(PrimitiveTopology::LineListAdj);
+  context.Draw(8, 0);
+  EXPECT_TRUE(Matches(gpu.Read(target), Picture({{0, 1, 2, 3}, {4, 5, 6, 7}}, Counting(8))));
+}
+
+TEST_P(GeometryInputTest, LineadjIndexed) {
+  RHI_NEEDS_CAP(geometryShader);
+  const std::vector<uint32_t> indices{30, 2, 100, 7, 7, 100, 2, 30};
+  const Ref<IBuffer> b = gpu.BufferOf(Bind::IndexBuffer, indices);
+  Prepare(PrimitiveTopology::LineListAdj);
+  context.IASetIndexBuffer(b.get(), Format::R32_UInt, 0);
+  context.DrawIndexed(8, 0, 0);
+  EXPECT_TRUE(Matches(gpu.Read(target), Picture({{0, 1, 2, 3}, {4, 5, 6, 7}}, indices)));
+}
+
+TEST_P(GeometryInputTest, LineadjIncompleteDropped) {
   RHI_NEEDS_CAP(geometryShader);
   const std::vector<uint32_t> indices{3, 2, 1, 0, 7, 6, 5, 4, 9, 9, 9};
   const Ref<IBuffer> b = gpu.BufferOf(Bind::IndexBuffer, indices);
@@ -138,6 +160,18 @@ TEST_P(TopologyTest, LineListAdjOfAnOddCountDropsTheRest) {
   context.IASetIndexBuffer(b.get(), Format::R32_UInt, 0);
   context.DrawIndexed(11, 0, 0);
   EXPECT_TRUE(Matches(gpu.Read(target), Picture({{0, 1, 2, 3}, {4, 5, 6, 7}}, indices)));
+}
+
+// SV_PrimitiveID counts from 0 in each draw and in each instance, wherever the draw starts.
+TEST_P(GeometryInputTest, PrimitiveId) {
+  RHI_NEEDS_CAP(geometryShader);
+  Prepare(PrimitiveTopology::LineList);
+  context.DrawInstanced(8, 3, 5, 2);
+  const Primitives expected{{0, 1}, {2, 3}, {4, 5}, {6, 7}};
+  EXPECT_TRUE(Matches(gpu.Read(target), Picture(expected, Counting(8))));
+  gpu.Clear(target, {0, 0, 0, 0});
+  context.Draw(4, 0);
+  EXPECT_TRUE(Matches(gpu.Read(target), Picture({{0, 1}, {2, 3}}, Counting(4)))) << "the second draw";
 }
 
 // A strip begins anew after the greatest index.
@@ -251,7 +285,16 @@ TEST_P(TopologyTest, PointsAndLinesAreDrawn) {
       Matches(gpu.Read(row), [&](uint32_t x, uint32_t y) { return y == 1 && x >= 4 && x < 9 ? white : black; }));
 }
 
+std::string NameOf(PrimitiveTopology t) {
+  static constexpr const char* kNames[] = {"point_list",     "line_list",         "line_strip",
+                                           "triangle_list",  "triangle_strip",    "line_list_adj",
+                                           "line_strip_adj", "triangle_list_adj", "triangle_strip_adj"};
+  return kNames[std::find(std::begin(kAll), std::end(kAll), t) - kAll];
+}
+
 RHI_ON_EVERY_BACKEND(TopologyTest);
+RHI_MATRIX(TopologyEachTest, kAll, [](PrimitiveTopology each) { return NameOf(each); });
+RHI_ON_EVERY_BACKEND(GeometryInputTest);
 
 }  // namespace
 }  // namespace rhi_test

@@ -15,7 +15,6 @@ int main(int argc, char** argv) {
     return 0;
   }
   rhi_stress::UseOnlyDriver(icd);
-  setenv("FUR_FALLBACK_DRIVER", "1", 1);  // see RequiredCapsOfTheTestDrivers
   execv(argv[1], argv + 1);
   std::perror(argv[1]);
   return 1;

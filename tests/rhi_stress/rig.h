@@ -18,6 +18,7 @@ using rhi_test::Matches;
 using rhi_test::Rgba32F;
 using rhi_test::Rgba8;
 using rhi_test::TestSink;
+using rhi_test::Within;
 
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool kAddressSanitizer = true;  // keeps freed memory, and maps terabytes

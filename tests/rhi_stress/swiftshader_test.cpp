@@ -108,7 +108,7 @@ TEST_F(SwiftShaderTest, ResolvesSamples) {
       [](uint32_t x, uint32_t) {
         return Rgba8{uint8_t(x < 5 ? 255 : x == 5 ? 128 : 0), 0, 0, 255};
       },
-      1));
+      Within("resolve_average")));
 }
 
 TEST_F(SwiftShaderTest, DrawsFromVertexBuffers) {
@@ -137,8 +137,8 @@ TEST_F(SwiftShaderTest, DrawsFromVertexBuffers) {
 // and draws a rectangle without area.)
 TEST_F(SwiftShaderTest, VertexIdsCountFromZeroWhereverADrawStarts) {
   constexpr std::array<DrawArgs, 2> kArgs{{{4, 1, 7, 0}, {4, 1, 400, 3}}};
-  const Ref<IBuffer> args = rig->Buffer(
-      {.byteWidth = sizeof kArgs, .usage = Usage::Immutable, .bind = Bind::IndirectArgs}, kArgs.data());
+  const Ref<IBuffer> args =
+      rig->Buffer({.byteWidth = sizeof kArgs, .usage = Usage::Immutable, .bind = Bind::IndirectArgs}, kArgs.data());
   const Target target = rig->MakeTarget(8);
   Clear(target, {0, 0, 0, 0});
   for (uint32_t column = 0; column < 8; ++column) {

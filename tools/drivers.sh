@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Runs the conformance suite on every driver that this machine has and writes the table of drivers. Drivers that lack
+# something are in the table with it; a failure on a driver that is not required is no failure of this script.
+# Usage: tools/drivers.sh [OUT.md]                       default docs/drivers.md
+# Environment: OUT, a folder that keeps the reports (JSON and pages); FUR_SWIFTSHADER_ICD, lvp_icd: descriptions of drivers.
+# Needs build/release/bin/fur_conformance.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+table="${1:-docs/drivers.md}"
+suite=build/release/bin/fur_conformance
+work="${OUT:-$(mktemp -d)}"
+mkdir -p "$work"
+if [ -z "${OUT:-}" ]; then trap 'rm -rf "$work"' EXIT; fi
+swiftshader="${FUR_SWIFTSHADER_ICD:-/usr/lib/chromium/vk_swiftshader_icd.json}"
+lavapipe="${lvp_icd:-$(ls /usr/share/vulkan/icd.d/lvp_icd*.json)}"
+reports=()
+
+run() {  # NAME VARIABLE=VALUE...
+  local name="$1" code=0
+  shift
+  echo "--- $name"
+  env "$@" "$suite" --json "$work/$name.json" --html "$work/$name.html" >"$work/$name.txt" 2>&1 || code=$?
+  tail -n 1 "$work/$name.txt"
+  case $code in
+    0 | 8) reports+=("$work/$name.json") ;;
+    *) cat "$work/$name.txt" >&2; exit "$code" ;;
+  esac
+}
+
+run mesa VK_DRIVER_FILES="$lavapipe" VK_ICD_FILENAMES="$lavapipe"
+if [ -f "$swiftshader" ]; then run swiftshader VK_DRIVER_FILES="$swiftshader" VK_ICD_FILENAMES="$swiftshader"; fi
+run zink VK_DRIVER_FILES="$lavapipe" VK_ICD_FILENAMES="$lavapipe" LIBGL_ALWAYS_SOFTWARE=1 MESA_LOADER_DRIVER_OVERRIDE=zink
+run softpipe VK_DRIVER_FILES="$lavapipe" VK_ICD_FILENAMES="$lavapipe" GALLIUM_DRIVER=softpipe
+"$suite" --driver-table "${reports[@]}" >"$work/drivers.md"
+mv "$work/drivers.md" "$table"
