@@ -12,6 +12,7 @@
 #include "fur_volume.hlsli"
 
 static const float kMostCoverage = 0.999;
+static const float kVolumeMipBiasSquared = 0.5;  // 4^fur::kVolumeMipBias
 
 struct Fur {
   float3 packed;    // tangent
@@ -118,6 +119,22 @@ float3 StrandIn(Fur fur) {
   return strand;
 }
 
+// What of a shortened mean is the strands' own spread: the rest is the filter's mixing of neighbours, which mip 0 has too.
+static const float kSpreadShare = 0.6;
+
+// Variance of the strands' tilt about each axis where the volume is minified: the mean of unit directions is shorter by as
+// much. At mip 0, none: the fur model filters packed directions and makes them unit.
+float StrandSpread(Fur fur, float2 tiles) {
+  uint width, height, slices;
+  furVolume.GetDimensions(width, height, slices);
+  float2 dx = ddx(tiles) * float2(width, height), dy = ddy(tiles) * float2(width, height);
+  float footprint = max(dx.x * dx.x + dx.y * dx.y, dy.x * dy.x + dy.y * dy.y) * kVolumeMipBiasSquared;
+  float minified = saturate((footprint - 1.0) / 3.0);  // 0 at mip 0, 1 from mip 1 on
+  float3 t = fur.packed * 2.0 - 1.0;
+  float square = Dot3(t, t);
+  return square < kLeastPacked ? 0.0 : saturate(1.0 - sqrt(square)) * (minified * kSpreadShare);
+}
+
 float3 FurAlbedo(FurVarying v, Fur fur) {
   float3 albedo = baseColorMap.Sample(surfaceSampler, v.uv.xy).rgb;
 #ifndef LOOK_SEED
@@ -138,14 +155,14 @@ float3 FurColor(FurVarying v, Fur fur) {
   float3 tangent = UnitOr(v.tangent.xyz - axis * Dot3(v.tangent.xyz, axis), float3(1, 0, 0));
 #ifdef LOOK_SEED
   float3 strand = UnitOr(FromFrame(StrandIn(fur), tangent, Cross3(axis, tangent), axis), axis);
-  float3 color = SeedFurLight(albedo, strand, v.fromEye);
+  float3 color = SeedFurLight(albedo, strand, v.fromEye, StrandSpread(fur, v.uv.zw));
   // The published ramp is stated at the slices, of which slice j is centred at (j + 1/2) / N0.
   float height = max(v.fur.x - 0.5 / furShape.z, 0.0);
   return color * (height * (1.0 - furLight.x) + furLight.x);
 #else
   float3 bitangent = Cross3(axis, tangent) * (v.tangent.w < 0.0 ? -1.0 : 1.0);
   float3 strand = UnitOr(FromFrame(StrandIn(fur), tangent, bitangent, axis), axis);
-  return FurLight(albedo, strand, normal, v.fromEye, v.fur.x);
+  return FurLight(albedo, strand, normal, v.fromEye, v.fur.x, StrandSpread(fur, v.uv.zw));
 #endif
 }
 

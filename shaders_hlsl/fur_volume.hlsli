@@ -13,10 +13,12 @@ Texture2DArray furTint : register(t8);    // rgb: factor of the colour, byte / 1
 SamplerState surfaceSampler : register(s0);
 SamplerState volumeSampler : register(s1);
 
+static const float kLeastPacked = 1.0 / 4096.0;
+
 // Unpacks a strand direction in tangent space. |2 rgb - 1| < 1/64 means "no direction": straight up.
 float3 UnpackStrand(float3 packed) {
   float3 t = packed * 2.0 - 1.0;
-  return Dot3(t, t) < 1.0 / 4096.0 ? float3(0, 0, 1) : Unit3(t);
+  return Dot3(t, t) < kLeastPacked ? float3(0, 0, 1) : Unit3(t);
 }
 
 // Of `exponent` slabs of this coverage behind each other: 1 - (1 - a)^e.

@@ -91,7 +91,7 @@ float4 PSMain(FinVarying v) : SV_Target {
   float3 normal = UnitOr(v.normal, float3(0, 0, 1));
   float3 tangent = UnitOr(v.tangent.xyz, float3(1, 0, 0));
   float3 strand = UnitOr(FromFrame(UnpackStrand(fur.rgb), tangent, Cross3(normal, tangent) * v.tangent.w, normal), normal);
-  float3 color = FurLight(albedo * baseColor.rgb, strand, normal, v.fromEye, height);
+  float3 color = FurLight(albedo * baseColor.rgb, strand, normal, v.fromEye, height, 0.0);
 #endif
   return float4(color, alpha);
 }

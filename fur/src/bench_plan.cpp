@@ -45,10 +45,12 @@ RenderSettings Published() {
   return s;
 }
 
+// Without fins, which are opacity that sheets do not have (docs/shells.md).
 RenderSettings SeedLook(uint32_t shells) {
   RenderSettings s = Published();
   s.technique = Technique::Shells;
   s.shells = shells;
+  s.drawFins = false;
   return s;
 }
 
@@ -80,7 +82,7 @@ std::vector<BenchConfig> BenchConfigs() {
   std::vector<BenchConfig> configs{{"seed", "as published: the baseline", Published(), true}};
   for (const uint32_t n : {8u, 16u, 32u})
     configs.push_back(
-        {"seedlook-" + std::to_string(n), std::to_string(n) + " shells in the seed's look", SeedLook(n), n == 16});
+        {"seedlook-" + std::to_string(n), std::to_string(n) + " shells in the seed's look", SeedLook(n), n < 32});
   configs.push_back({"shells", "the default: as many shells as the coat says", RenderSettings{}, true, true});
   for (const uint32_t n : {4u, 8u, 32u, 64u})
     configs.push_back({"shells-" + std::to_string(n), std::to_string(n) + " shells", Shells(n), n <= 32});

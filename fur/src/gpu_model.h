@@ -11,7 +11,8 @@
 namespace fur {
 
 // Mips of technique shells, in levels: a trilinear filter takes the longer side of a pixel's footprint and reads two texels
-// a side; these are nearer to the box over the pixel, with no more flicker (docs/measured.md).
+// a side; these are nearer to the box over the pixel, with no more flicker (docs/measured.md). fur_shade.hlsli has the
+// volume's too.
 inline constexpr float kSurfaceMipBias = -1, kVolumeMipBias = -0.5f;
 
 struct GpuGeometry {  // of one primitive

@@ -289,6 +289,25 @@ TEST(TriangleOrder, DegenerateTrianglesStayInTheList) {
   }
 }
 
+// By the side of the middle shell's plane: the eye moves through it, and a comb and the fur's length move it.
+TEST(TriangleOrder, SeenFromBehindIsBeyondTheMiddleShell) {
+  const Body body{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}};
+  for (const bool flipped : {false, true}) {  // whichever way the triangle is wound, its fur says where its outside is
+    std::vector<FurVertex> vertices;
+    for (const glm::dvec3& p : body.points) vertices.push_back(Root(p, {0, 0, 1}, 0.5));
+    const TriangleOrder order(vertices, flipped ? Indices{0, 2, 1} : body.indices);
+    const auto behind = [&](double z, double length, const glm::dvec3& comb) {
+      return order.SeenFromBehind(0, {0.2, 0.2, z}, comb, length);
+    };
+    EXPECT_FALSE(behind(0.26, 1, kNoComb));  // the middle is at 0.5 x 1 / 2
+    EXPECT_TRUE(behind(0.24, 1, kNoComb));
+    EXPECT_FALSE(behind(0.6, 2, kNoComb));
+    EXPECT_TRUE(behind(0.4, 2, kNoComb));
+    EXPECT_TRUE(behind(0.3, 1, {0, 0, 1}));  // combed on along the fur: twice as far
+    EXPECT_TRUE(behind(-5, 1, kNoComb));
+  }
+}
+
 TEST(TriangleOrder, NothingInNothingOut) {
   EXPECT_TRUE(TriangleOrder().BackToFront({1, 2, 3}, kNoComb).empty());
   EXPECT_TRUE(TriangleOrder({}, {}).BackToFront({1, 2, 3}, kNoComb).empty());

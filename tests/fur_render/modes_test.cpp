@@ -142,6 +142,7 @@ TEST_P(Modes, SeveralShellsAtOnceDifferWhereLimbsOverlap) {
   ForEachView([&](const Camera& camera, RenderSettings settings, const std::string& what) {
     if (settings.samples > 1) return;
     settings.drawFins = false;
+    settings.shellMode = ShellMode::Instanced;
     const Image instanced = Picture(*device_, model_, settings, camera);
     settings.shellMode = ShellMode::Amplified;
     std::printf("%s, %s; at once: pixels that differ, by more than 1, most\n", GetParam().model, what.c_str());
@@ -162,11 +163,13 @@ class ShellsAtOnce : public OnEachBackend {
  protected:
   static constexpr RenderSettings kSettings{.width = kWidth, .height = kHeight, .drawFins = false};
 
-  // Instanced against 14, 5 and 2 at once.
+  // Instanced against sorted, and against 14, 5 and 2 at once.
   void ExpectEqualAtOnce(const Model& model, RenderSettings settings, const Camera& camera, const std::string& what) {
     settings.shellMode = ShellMode::Instanced;
     const Image instanced = Picture(*device_, model, settings, camera);
     EXPECT_GT(Colors(instanced), 100u) << what;
+    settings.shellMode = ShellMode::Sorted;
+    ExpectEqual(instanced, Picture(*device_, model, settings, camera), what + ", sorted");
     settings.shellMode = ShellMode::Amplified;
     for (const uint32_t atOnce : {14u, 5u, 2u}) {
       settings.shellsAtOnce = atOnce;

@@ -19,7 +19,7 @@ float4 Call(uint function, Arguments x) {
   if (function == 3u) return float4(SlabOpacity(x.a.x, x.a.y), 0, 0, 0);
   if (function == 4u) return float4(SineOfTurns(x.a.x), 0, 0, 0);
   if (function == 5u) return float4(Encode(x.a.x), 0, 0, 0);
-  if (function == 6u) return float4(FurLight(x.c.xyz, x.a.xyz, x.b.xyz, float3(x.a.w, x.b.w, -1.0), x.c.w), 0);
+  if (function == 6u) return float4(FurLight(x.c.xyz, x.a.xyz, x.b.xyz, float3(x.a.w, x.b.w, -1.0), x.c.w, 0.0), 0);
   if (function == 7u) return float4(GroomedAlbedo(x.a.xyz, x.a.w, x.b.xyz), 0);
   if (function == 8u) return float4(TipOffset(x.a.xyz, x.b.xyz), 0);
   return float4(FinFade(x.a.xyz, x.b.xyz, x.c.xyz, float3(x.a.w, x.b.w, x.c.w)), 0, 0, 0);
