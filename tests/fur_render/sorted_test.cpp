@@ -1,6 +1,7 @@
 // Fur over fur: shells sorted by triangle (fur/src/triangle_order.h), the default.
 #include <cmath>
 #include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "../fur/reference_support.h"
 #include "fur/builtin.h"
@@ -32,17 +33,17 @@ Model TwoSquares(const Model& square) {
 // Limb by limb as animal by animal: the nearer one's fur over the farther one's.
 TEST_P(Sorted, TheNearerLimbLiesOverTheOtherOne) {
   Coat coat = UniformCoat(16, 60, {190, 128, 220});
-  coat.length = 0.3;
+  coat.length = 0.6;  // so that the tips stand before what is behind
   const Model square = FurredSquare(1, {200, 150, 100, 255}, coat), both = TwoSquares(square);
   RenderSettings settings{.width = 160, .height = 120, .semantics = Semantics::Sheet, .drawFins = false};
-  for (const double yaw : {0.0, 25.0, -30.0}) {
-    const Camera camera = CameraAt(6, yaw, 10);
+  for (const double yaw : {-25.0, -40.0}) {
+    const Camera camera = CameraAt(6, yaw, -25);
     settings.shellMode = ShellMode::Sorted;
     const Image sorted = Render(*device_, both, settings, camera).image;
     settings.shellMode = ShellMode::Instanced;
     const std::vector<glm::dmat4> animals{glm::dmat4(1), glm::translate(glm::dmat4(1), kBehind)};
     EXPECT_EQ(DifferingPixels(sorted, Render(*device_, square, settings, camera, animals).image), 0u) << yaw;
-    EXPECT_GT(DifferingPixels(sorted, Render(*device_, both, settings, camera).image), 100u) << yaw << ": nothing overlaps";
+    EXPECT_GT(DifferingPixels(sorted, Render(*device_, both, settings, camera).image), 200u) << yaw << ": hardly anything overlaps";
   }
 }
 
