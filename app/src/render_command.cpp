@@ -70,6 +70,7 @@ Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   SetShellOptions(f, &s);
   if (f.supersample > 1 && s.technique == fur::Technique::Seed)
     return Error{ErrorCode::Usage, "--supersample needs a frame of floats, which technique seed and its presets have not"};
+  if (f.supersample > 1) s.target = fur::TargetFormat::Float32;  // the mean is nearer than half floats' cutting
   s.width *= f.supersample;
   s.height *= f.supersample;
   if (std::max(s.width, s.height) > kMaxSide)

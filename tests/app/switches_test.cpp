@@ -51,7 +51,8 @@ TEST_F(Switches, NoBackFaces) {
   EXPECT_LT(run.Fragments("shells"), Default().Fragments("shells"));
   EXPECT_GT(Changed(run, Default()), 200u);
   EXPECT_LT(Changed(run, Default()), 6000u);
-  EXPECT_LT(run.Count("triangles_submitted"), 0.6 * double(Default().Count("triangles_submitted")));
+  const Drawn front = With({"--no-back-faces", "--shell-mode", "instanced"}), all = With({"--shell-mode", "instanced"});
+  EXPECT_LT(front.Count("triangles_submitted"), 0.6 * double(all.Count("triangles_submitted")));
 }
 
 TEST_F(Switches, FinThreshold) {
@@ -78,11 +79,25 @@ TEST_F(Switches, Fins) {
 }
 
 TEST_F(Switches, ShellMode) {
-  const Drawn draws = With({"--shell-mode", "draws"}), amplified = With({"--shell-mode", "amplified"});
-  EXPECT_GT(draws.Count("draws"), Default().Count("draws") + 20);
-  EXPECT_EQ(Changed(draws, Default()), 0u);
-  EXPECT_LE(Changed(amplified, Default()), 43u);
-  EXPECT_GT(amplified.Count("draws"), Default().Count("draws") + 20);
+  const Drawn instanced = With({"--shell-mode", "instanced"}), draws = With({"--shell-mode", "draws"}),
+              amplified = With({"--shell-mode", "amplified"});
+  EXPECT_GT(draws.Count("draws"), instanced.Count("draws") + 20);
+  EXPECT_EQ(Changed(draws, instanced), 0u);
+  EXPECT_LE(Changed(amplified, instanced), 43u);
+  EXPECT_GT(amplified.Count("draws"), instanced.Count("draws") + 20);
+  EXPECT_EQ(Changed(With({"--shell-mode", "sorted"}), Default()), 0u);
+  EXPECT_GT(Changed(instanced, Default()), 100u) << "the animal's fur lies over its own";
+  EXPECT_EQ(instanced.Fragments("shells"), Default().Fragments("shells"));
+}
+
+// Bytes are filtered with coarse weights, floats are not: the difference is small, and everywhere.
+TEST_F(Switches, FloatTextures) {
+  const Drawn run = With({"--float-textures"});
+  EXPECT_GT(Changed(run, Default()), 1000u);
+  double sum = 0;
+  for (size_t i = 0; i < run.picture.pixels.size(); ++i)
+    sum += std::abs(int(run.picture.pixels[i]) - int(Default().picture.pixels[i]));
+  EXPECT_LT(sum / double(run.picture.pixels.size()), 0.5) << "in the mean below what 8 bits show";
 }
 
 TEST_F(Switches, Shells) {
