@@ -1,0 +1,138 @@
+// A frame is the same whatever was drawn before it, and whatever the driver remembers; and a fault of one backend shows.
+#include <algorithm>
+
+#include "../fur_render/frames.h"
+#include "child_run.h"
+#include "fur_scenes.h"
+
+namespace conformance {
+namespace {
+
+using namespace fur;
+using rhi_test::BothTest;
+using rhi_test::Gpu;
+using rhi_test::RhiTest;
+
+constexpr RenderSettings kSmall{.width = kFurWidth, .height = kFurHeight};
+
+class FurStateTest : public RhiTest {
+ protected:
+  // A frame of each technique that the device can, all bytes one after the other.
+  std::vector<uint8_t> FrameOfEachTechnique() {
+    RenderSettings seed = kSmall;
+    seed.technique = Technique::Seed;
+    seed.look = Look::Seed;
+    std::vector<uint8_t> bytes;
+    for (const RenderSettings& settings : {kSmall, seed}) {
+      if (NeedsGeometryShader(settings) && !Caps().geometryShader) continue;
+      const fur::Image frame = Draw(gpu, Animal(), CloseShot(Animal(), settings));
+      EXPECT_GT(test::Colors(frame), 100u) << "there is hardly anything to compare";
+      bytes.insert(bytes.end(), frame.pixels.begin(), frame.pixels.end());
+    }
+    return bytes;
+  }
+};
+
+// Frames of other settings, models and cameras, 20 of each.
+std::vector<RenderSettings> OtherSettings(bool geometryShader) {
+  std::vector<RenderSettings> all{
+      {.width = 64, .height = 48, .samples = 4},
+      {.width = 50, .height = 70, .semantics = Semantics::Sheet, .shellMode = ShellMode::Instanced},
+      {.width = 64, .height = 48, .look = Look::Seed, .finMode = FinMode::Pulled},
+      {.width = 33, .height = 9, .target = TargetFormat::Float32, .shells = 40, .shellMode = ShellMode::Draws}};
+  if (geometryShader)
+    all.push_back({.width = 64, .height = 48, .technique = Technique::Seed, .look = Look::Seed, .preset = Preset::GsShells});
+  else
+    all.push_back({.width = 64, .height = 48, .drawFins = false});
+  return all;
+}
+
+TEST_P(FurStateTest, AFrameIsTheSameAfter100Others) {
+  const FurShot shot = CloseShot(Animal());
+  Result<std::unique_ptr<Renderer>> renderer = MakeRenderer(device, Animal(), shot.settings);
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const auto frame = [&]() -> fur::Image {
+    (*renderer)->Draw(shot.camera, shot.placements);
+    const Result<fur::Image> image = (*renderer)->ReadImage();
+    if (!image) throw std::runtime_error(image.error().message);
+    TheRecorder().ReadBack(PictureOf(*image));
+    return *image;
+  };
+  const fur::Image first = frame();
+  EXPECT_GT(test::Colors(first), 100u);
+  for (const RenderSettings& settings : OtherSettings(Caps().geometryShader)) {
+    Result<std::unique_ptr<Renderer>> other = MakeRenderer(device, Animal(), settings);
+    ASSERT_TRUE(other) << other.error().message;
+    for (int i = 0; i < 20; ++i) {
+      const Camera turned = TurnCamera(shot.camera, 18 * i);
+      (*(i % 4 == 3 ? renderer : other))->Draw(turned, PlaceAnimals(1 + uint32_t(i) % 3, 0.5));
+    }
+  }
+  EXPECT_TRUE(SameImage(PictureOf(frame()), PictureOf(first))) << "the same renderer";
+  EXPECT_TRUE(SameImage(PictureOf(Draw(gpu, Animal(), shot)), PictureOf(first))) << "another renderer of the device";
+}
+
+// What the processes of the next case draw.
+TEST_P(FurStateTest, FramesOfACache) { EXPECT_FALSE(FrameOfEachTechnique().empty()); }
+
+// Two processes with a shader cache of their own: an empty one, and what the first left in it.
+TEST_P(FurStateTest, AWarmCacheEqualsACold) {
+  const CacheFolder cache;
+  const ChildRun cold = RunInChild("fur.frames_of_a_cache", backend, cache);
+  ASSERT_EQ(cold.problem, "");
+  const size_t files = cache.Files();
+  const bool mesa = TheRecorder().Driver().ends_with("pipe");  // lavapipe, llvmpipe: theirs are on the disk
+  EXPECT_TRUE(files > 0 || !mesa) << "the first process left no cache";
+  const ChildRun warm = RunInChild("fur.frames_of_a_cache", backend, cache);
+  ASSERT_EQ(warm.problem, "");
+  EXPECT_EQ(cache.Files(), files) << "the second process did not find everything in the cache";
+  const auto picture = [](const std::vector<uint8_t>& bytes) {
+    return FromRgba8(kFurWidth, uint32_t(bytes.size() / 4 / kFurWidth), bytes);
+  };
+  EXPECT_TRUE(SameImage(picture(warm.bytes), picture(cold.bytes)));
+  EXPECT_TRUE(SameImage(picture(FrameOfEachTechnique()), picture(cold.bytes))) << "this process, and an empty cache";
+}
+RHI_ON_EVERY_BACKEND(FurStateTest);
+
+// ------------------------------------------------------------------------------------------------- planted differences
+class FurFaultTest : public BothTest {
+ protected:
+  // The texel of the base colour under the furred vertex that is nearest to the eye.
+  static Model WithOneTexelChanged(const Model& original, const Camera& camera) {
+    Model model = original;
+    const Primitive& skin = model.primitives[model.parts[0].primitive];
+    const auto distance = [&](const Vertex& v) {
+      return glm::distance(glm::dvec3(PlaceAnimals(1, 1)[0] * model.parts[0].transform * glm::dvec4(v.position, 1)),
+                           camera.eye);
+    };
+    const Vertex& nearest = *std::min_element(
+        skin.vertices.begin(), skin.vertices.end(),
+        [&](const Vertex& a, const Vertex& b) { return distance(a) < distance(b); });
+    fur::Image& texture = model.images[size_t(model.materials[skin.material].baseColorTexture.image)];
+    const auto x = uint32_t(nearest.uv.x * float(texture.width)), y = uint32_t(nearest.uv.y * float(texture.height));
+    uint8_t& red = texture.pixels[(size_t{y} * texture.width + x) * 4];
+    red = red ? red - 1 : 1;
+    return model;
+  }
+};
+
+TEST_P(FurFaultTest, OneTexelByOneStepIsCaught) {
+  const RenderSettings settings{.width = kFurWidth, .height = kFurHeight, .target = TargetFormat::Float32};
+  const FurShot shot = CloseShot(Animal(), settings);
+  const fur::FloatImage right = DrawFloats(vulkan, Animal(), shot);
+  EXPECT_TRUE(SameImage(PictureOf(DrawFloats(gl, Animal(), shot)), PictureOf(right)));
+  const fur::FloatImage wrong = DrawFloats(gl, WithOneTexelChanged(Animal(), shot.camera), shot);
+  EXPECT_FALSE(SameImage(PictureOf(wrong), PictureOf(right)));
+}
+
+TEST_P(FurFaultTest, OneShellFewerIsCaught) {
+  FurShot shot = CloseShot(Animal());
+  shot.settings.shells = 16;
+  const fur::Image right = Draw(vulkan, Animal(), shot);
+  shot.settings.shells = 15;
+  EXPECT_FALSE(SameImage(PictureOf(Draw(gl, Animal(), shot)), PictureOf(right)));
+}
+RHI_ON_BOTH(FurFaultTest);
+
+}  // namespace
+}  // namespace conformance
