@@ -42,12 +42,14 @@ size_t CacheFolder::Files() const {
 ChildRun RunInChild(const std::string& name, rhi::Backend backend, const CacheFolder& cache) {
   const CacheFolder work;
   const std::string bytes = work.Path() + "/bytes", said = work.Path() + "/said";
-  const std::string label = rhi_test::BackendName(backend), adapter = rhi_test::TestDeviceDesc(backend, nullptr).adapter;
+  const std::string label = rhi_test::BackendName(backend),
+                    adapter = rhi_test::TestDeviceDesc(backend, nullptr).adapter;
   std::string command = "MESA_SHADER_CACHE_DIR=" + Quoted(cache.Path()) + " " +
                         Quoted(std::filesystem::read_symlink("/proc/self/exe").string()) + " --filter " +
                         Quoted(name + "." + label) + " --read-backs " + Quoted(bytes);
   if (!adapter.empty()) command += " --adapter " + Quoted(label + ":" + adapter);
-  if (std::system((command + " > " + Quoted(said) + " 2>&1").c_str()) == 0) return {.bytes = Bytes(bytes), .problem = ""};
+  if (std::system((command + " > " + Quoted(said) + " 2>&1").c_str()) == 0)
+    return {.bytes = Bytes(bytes), .problem = ""};
   const std::vector<uint8_t> text = Bytes(said);
   return {.bytes = {}, .problem = command + ":\n" + std::string(text.begin(), text.end())};
 }

@@ -1,7 +1,9 @@
 // Fins three ways and shells four ways, on each backend: one picture, but where geometry shaders make it.
 //
 // Ways whose last stage before the rasteriser is a vertex shader agree to the bit. Behind a geometry shader Mesa brings
-// positions to the viewport in other arithmetic than behind a vertex shader: "behind_a_geometry_shader" in tolerances.cpp.
+// positions to the viewport in other arithmetic than behind a vertex shader: "behind_a_geometry_shader" in
+// tolerances.cpp.
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "../fur_render/frames.h"
@@ -35,15 +37,14 @@ class FurModeTest : public RhiTestOf<Asset> {
     if (!model_) GTEST_SKIP() << "no assets: " << Parameter().file;
   }
 
-  // From two sides, without and with multisampling.
+  // From two sides: one without, one with multisampling.
   void ForEachView(const std::function<void(FurShot, const std::string&)>& check) {
-    for (const double turn : {0.0, 140.0})
-      for (const uint32_t samples : {1u, 4u}) {
-        FurShot shot = CloseShot(*model_);
-        shot.camera = TurnCamera(shot.camera, turn);
-        shot.settings.samples = samples;
-        check(shot, std::to_string(int(turn)) + " degrees, " + std::to_string(samples) + " samples");
-      }
+    for (const uint32_t samples : {1u, 4u}) {
+      FurShot shot = CloseShot(*model_);
+      shot.camera = TurnCamera(shot.camera, samples == 1 ? 0 : 140);
+      shot.settings.samples = samples;
+      check(shot, std::to_string(samples) + " samples");
+    }
   }
   fur::Image Fins(FurShot shot, FinMode mode) {
     shot.settings.finMode = mode;
@@ -144,9 +145,7 @@ class FurOrderTest : public RhiTestOf<Body> {
       }
   }
 };
-TEST_P(FurOrderTest, SortedShellsEqualInstancedOnConvexBodies) {
-  ExpectShellByShell(ShellMode::Sorted, {1}, kExact);
-}
+TEST_P(FurOrderTest, SortedShellsEqualInstancedOnConvexBodies) { ExpectShellByShell(ShellMode::Sorted, {1}, kExact); }
 TEST_P(FurOrderTest, GsShellsAtOnceEqualInstancedOnConvexBodies) {
   RHI_NEEDS_CAP(geometryShader);
   ExpectShellByShell(ShellMode::Amplified, {14, 5, 2}, Within("behind_a_geometry_shader"));

