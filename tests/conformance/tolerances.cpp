@@ -91,6 +91,13 @@ constexpr ParityLimit kParityLimits[] = {
      "a sample more or less: where coverage steps is left to the driver"},
     {"clear.reaches_the_whole_view_whatever_the_state,clear.leaves_the_state_as_it_was,clear.stencil_is_read_back",
      kIndependent, 0, 1, kNotCompared, 0, 1, 1, "SwiftShader has no D24_UNorm_S8_UInt: the cases read other formats"},
+    {"fur.supersampled_floats", kIndependent, 65536, 0.1987, 0.1164, 65536, 0.1987, 0.1164,
+     "ULP: edges of triangles with other sub-pixel bits, 16 layers of them; transcendental functions and interpolation"},
+    {"fur.*_is_caught", kIndependent, 0, 0, 0, 0, 0, 0, "planted differences: none is allowed"},
+    {"fur.five_animals*", kIndependent, 8, 0.3997, 0.0082, 8, 0.3997, 0.0082,
+     "edges of triangles with other sub-pixel bits, 16 layers of them; interpolation and each blend round otherwise"},
+    {"fur.*", kIndependent, 8, 0.1644, 0.007, 8, 0.1644, 0.007,
+     "edges of triangles with other sub-pixel bits, 16 layers of them; interpolation and each blend round otherwise"},
     {"zero.*_in_every_stage", kIndependent, 0, 1, kNotCompared, 0, 1, 1,
      "SwiftShader has no geometry shaders: the cases read fewer stages"},
 };
