@@ -23,14 +23,15 @@ std::vector<std::string> Names() {
   return names;
 }
 
-TEST(Coats, EachIsAPictureOfItsOwnAndTheSameOnBothBackends) {
-  std::vector<fur::Image> images{RenderBoth({})};
+// Each one's picture: fur.coat of the conformance suite.
+TEST(Coats, ANameChoosesTheCoat) {
   const std::vector<std::string> names = Names();
   EXPECT_EQ(names.size(), 9u);
-  for (const std::string& name : names) {
-    images.push_back(RenderBoth({"--coat", name}));
-    for (size_t i = 0; i + 1 < images.size(); ++i) EXPECT_GT(DifferingPixels(images[i], images.back()), 900u) << name;
-  }
+  const fur::Image plain = RenderBoth({}), first = RenderBoth({"--coat", names.front()}),
+                   last = RenderBoth({"--coat", names.back()});
+  EXPECT_GT(DifferingPixels(plain, first), 900u);
+  EXPECT_GT(DifferingPixels(plain, last), 900u);
+  EXPECT_GT(DifferingPixels(first, last), 900u);
 }
 
 TEST(Coats, FlagsWinOverTheCoat) {

@@ -94,13 +94,15 @@ Outcome Measure(const Image& a, const Image& b, double limit) {
 
 testing::AssertionResult Report(const Outcome& outcome, const Tolerance& tolerance, const Image& result,
                                 const Image& reference, const std::string& firstWrong) {
-  TheRecorder().Measured(tolerance, outcome.worst);
+  TheRecorder().Measured(tolerance, outcome.worst, outcome.Share());
   if (TheRecorder().Active())
     TheRecorder().Add({outcome, tolerance.name, tolerance.unit, tolerance.limit, tolerance.pixels,
                        outcome.Ok(tolerance), result, reference});
   if (outcome.Ok(tolerance)) return testing::AssertionSuccess();
   auto failure = testing::AssertionFailure();
   failure << outcome.beyond << " of " << outcome.pixels << " pixels are wrong";
+  if (outcome.Share() > tolerance.differing)
+    failure << ", " << outcome.differing << " differ (allowed: " << tolerance.differing * 100 << " %)";
   if (tolerance.limit > 0) failure << " (by up to " << outcome.worst << " " << ToString(tolerance.unit) << ")";
   return failure << ":" << firstWrong;
 }

@@ -46,7 +46,8 @@ struct Outcome {
   double worst = 0;                                // the greatest distance of two components; infinite for packed ones
   uint32_t x = 0, y = 0;                           // the first pixel beyond
   bool sameShape = true;
-  bool Ok(const Tolerance& t) const { return sameShape && beyond <= t.pixels; }
+  bool Ok(const Tolerance& t) const { return sameShape && beyond <= t.pixels && Share() <= t.differing; }
+  double Share() const { return pixels ? double(differing) / double(pixels) : 0; }  // of the pixels that differ
 };
 Outcome Measure(const Image& result, const Image& reference, double limit = 0);
 

@@ -57,6 +57,7 @@ void AddFlags(CLI::App& app, Flags* f) {
   app.add_option("--junit", f->junit, "Write JUnit XML");
   app.add_option("--json", f->json, "Write everything but the pictures as JSON");
   app.add_option("--html", f->html, "Write a page with the pictures");
+  app.add_option("--read-backs", f->readBacks, "Write the bytes that the cases read back, one after the other");
   app.add_option("--driver-table", f->driverTable,
                  "Print the table of docs/drivers.md from JSON reports, and run no case");
   app.add_option("--assets", f->assets, "Folder of the models of fur.* cases")->capture_default_str();
@@ -74,7 +75,7 @@ std::string BadFlags(Flags* f) {
   for (const std::string& r : f->required)
     if (!(r.starts_with("vulkan:") || r.starts_with("gl:")) || r.back() == ':')
       return "--require " + r + ": must be vulkan:NAME or gl:NAME";
-  std::vector<std::string> files{f->junit, f->json, f->html};
+  std::vector<std::string> files{f->junit, f->json, f->html, f->readBacks};
   std::erase(files, "");
   std::sort(files.begin(), files.end());
   if (std::adjacent_find(files.begin(), files.end()) != files.end()) return "two reports go to the same file";
@@ -119,6 +120,9 @@ int WriteReports(const Run& run, const Options& o) {
     if (const auto done = fur::WriteFile(file, std::string_view(make(run))); !done)
       return Fail(kOutput, done.error().message);
   }
+  if (o.readBacks.empty()) return kPassed;
+  const std::string_view bytes(reinterpret_cast<const char*>(run.readBacks.data()), run.readBacks.size());
+  if (const auto done = fur::WriteFile(o.readBacks, bytes); !done) return Fail(kOutput, done.error().message);
   return kPassed;
 }
 
@@ -148,7 +152,7 @@ void OnCrash(int signal) {
 }
 
 int RunAndReport(const std::vector<CaseName>& cases, const Options& o) {
-  for (const std::string& file : {o.junit, o.json, o.html}) {
+  for (const std::string& file : {o.junit, o.json, o.html, o.readBacks}) {
     if (file.empty()) continue;
     if (const auto can = fur::CheckWritable(file); !can) return Fail(kOutput, can.error().message);
   }

@@ -129,6 +129,16 @@ TEST(ConformanceProgram, ReportsAgree) {
   }
 }
 
+TEST(ConformanceProgram, ReadBacksAreTheBytesOfThePictures) {
+  const Folder folder;
+  for (const char* backend : {"vulkan", "gl"})
+    EXPECT_EQ(RunFur({"--filter", std::string("blend.write_mask.") + backend, "--read-backs", folder / backend}).exitCode, 0);
+  const std::string bytes = Text(folder / "gl");
+  EXPECT_GT(bytes.size(), 100u);
+  EXPECT_TRUE(bytes == Text(folder / "vulkan"));
+  ExpectRefused({"--read-backs", "/proc/x"}, 5, "/proc/x");
+}
+
 TEST(ConformanceProgram, APlantedDifferenceFails) {
   const Folder folder;
   const Outcome o =

@@ -48,10 +48,11 @@ void Recorder::Add(Compared compared) {
   kept.assign(1, std::move(compared));
 }
 
-void Recorder::Measured(const Tolerance& tolerance, double distance) {
+void Recorder::Measured(const Tolerance& tolerance, double distance, double differing) {
   if (!active_ || tolerance.name == std::string(kExact.name)) return;
   MeasuredTolerance& m = measured_[{tolerance.name, driver_}];
   m.worst = std::max(m.worst, distance);
+  m.differing = std::max(m.differing, differing);
   ++m.comparisons;
 }
 

@@ -41,7 +41,7 @@ struct CaseRecord {
 };
 
 struct MeasuredTolerance {
-  double worst = 0;
+  double worst = 0, differing = 0;  // the greatest distance; the greatest share of a picture's pixels
   uint64_t comparisons = 0;
 };
 
@@ -59,7 +59,7 @@ class Recorder {
   // Within a case of both backends: GL's picture against Vulkan's.
   bool ComparesBackends() const { return active_ && case_.name.backend == "both"; }
   testing::AssertionResult Backends(const Image& gl, const Image& vulkan);
-  void Measured(const Tolerance&, double distance);
+  void Measured(const Tolerance&, double distance, double differing = 0);
   // By tolerance name and driver, since the start.
   const std::map<std::pair<std::string, std::string>, MeasuredTolerance>& AllMeasured() const { return measured_; }
 

@@ -21,7 +21,7 @@ std::array<char, 256> runningCase{};  // not a std::string: a signal handler rea
 // Follows GoogleTest's cases: begins and ends their records, and holds them to the rules of skips and of parity.
 class Listener final : public testing::EmptyTestEventListener {
  public:
-  Listener(Run* run, bool pictures) : run_(run), pictures_(pictures) {}
+  Listener(Run* run, const Options& o) : run_(run), pictures_(!o.html.empty()), readBacks_(!o.readBacks.empty()) {}
 
   void OnTestStart(const testing::TestInfo& info) override {
     current_ = {.name = NameOf(info)};
@@ -56,6 +56,9 @@ class Listener final : public testing::EmptyTestEventListener {
     current_.comparisons = record.comparisons;
     current_.worst = record.worst;
     if (record.parity) Take(*record.parity);
+    if (readBacks_)
+      for (const Image& i : record.readBacks)
+        run_->readBacks.insert(run_->readBacks.end(), i.bytes.begin(), i.bytes.end());
     if (pictures_)
       for (const Compared& c : record.kept) current_.pictures.push_back(MakePictures(c));
     Print();
@@ -77,7 +80,7 @@ class Listener final : public testing::EmptyTestEventListener {
     std::fflush(stdout);
   }
   Run* run_;
-  bool pictures_;
+  bool pictures_, readBacks_;
   CaseResult current_;
 };
 
@@ -140,14 +143,15 @@ bool SawAllOf(const Tolerance& t, const std::vector<CaseName>& all, const Run& r
 void CheckTolerances(Run* run) {
   const std::vector<CaseName> all = RegisteredCases();
   for (const Tolerance& t : Tolerances()) {
-    double measured = 0;
+    double measured = 0, differing = 0;
     bool seen = false;
     for (const auto& [key, m] : run->measured) {
       if (key.first != t.name || !MatchesGlob(t.drivers, key.second)) continue;
       seen = true;
       measured = std::max(measured, m.worst);
+      differing = std::max(differing, m.differing);
     }
-    const std::string problem = seen && SawAllOf(t, all, *run) ? Slack(t, measured) : "";
+    const std::string problem = seen && SawAllOf(t, all, *run) ? Slack(t, measured, t.differing < 1 ? differing : 1) : "";
     if (!problem.empty()) run->problems.push_back(problem);
   }
 }
@@ -239,7 +243,7 @@ Run RunCases(const std::vector<CaseName>& selected, const std::array<DriverInfo,
   testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
   delete listeners.Release(listeners.default_result_printer());
   listeners.Append(new LateMessages(&run));
-  listeners.Append(new Listener(&run, !o.html.empty()));  // GoogleTest owns it
+  listeners.Append(new Listener(&run, o));  // GoogleTest owns it
   const auto start = std::chrono::steady_clock::now();
   [[maybe_unused]] const int result = RUN_ALL_TESTS();  // the listeners know more
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -16,6 +16,7 @@ struct Options {
   std::vector<std::string> required;  // "vulkan:llvmpipe": backend and part of an adapter's name or driver key
   std::vector<std::string> adapters;  // "vulkan:NAME", "gl:NAME" or "NAME" for both
   std::string json, junit, html;      // files; "": not written
+  std::string readBacks;              // a file for the bytes that the cases read back
   std::string command;                // as it was typed, for the report
 };
 
@@ -50,6 +51,7 @@ struct Run {
   uint64_t notRun = 0;                // selected, but for a backend that is not there
   std::vector<std::string> problems;  // of the run as a whole
   std::map<std::pair<std::string, std::string>, MeasuredTolerance> measured;
+  std::vector<uint8_t> readBacks;  // where the options ask for them
   double seconds = 0;
   std::string command, date;
   uint64_t Count(Result) const;

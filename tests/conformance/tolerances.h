@@ -21,6 +21,7 @@ struct Tolerance {
   double floor;     // Ulp: of the larger of |expected| and this (the greatest value of the computation)
   double measured;  // the greatest distance that was seen on these drivers
   const char* cause;
+  double differing = 1, measuredDiffering = 1;  // share of the pixels that may differ at all, 0..1; what was seen
 };
 inline constexpr Tolerance kExact{"exact", "*", "*", Unit::Lsb, 0, 0, 0, 0, ""};
 
@@ -46,6 +47,7 @@ std::span<const ParityLimit> ParityLimits();
 const ParityLimit& ParityLimitOf(const std::string& name, const std::string& driver);
 
 // A limit may not be wider than what was measured asks for: this says what is wrong with a row, or "".
-std::string Slack(const Tolerance&, double measured);
+// `differing`: share of the pixels that differed.
+std::string Slack(const Tolerance&, double measured, double differing = 1);
 
 }  // namespace conformance

@@ -1,4 +1,4 @@
-// Groomed fur as it is drawn: against closed forms, and alike on every backend.
+// Groomed fur as it is drawn: against closed forms.
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
@@ -245,43 +245,6 @@ TEST_P(Groomed, InertiaBelongsToItsAnimal) {
   EXPECT_EQ(DifferingPixels(draw(reversed, reversedOffsets), moved), 0u);
   EXPECT_GT(DifferingPixels(draw(reversed, offsets), moved), 100u);
   EXPECT_EQ(DifferingPixels(draw(placements, std::span(offsets).first(0)), still), 0u);
-}
-
-void Everything(FurParams* p) {
-  p->density = 1.3;
-  p->thickness = 1.4;
-  p->comb = {0.3, -1, 0.2};
-  p->combStrength = 0.4;
-  p->gravity = 0.6;
-  p->rootColor = {0.4, 0.3, 0.2};
-  p->tipColor = {1.3, 1.1, 1};
-  p->colorFromBase = 0.7;
-  p->clumping = 0.7;
-  p->wetness = 0.4;
-  p->wind = {1, 0, 0.4};
-  p->windStrength = 0.9;
-}
-
-TEST(GroomedParity, EverythingAtOnceIsBitEqual) {
-  const Model model = AnimalWith(Everything);
-  for (const Look look : {Look::Correct, Look::Seed})
-    for (const uint32_t shells : {12u, 40u})
-      for (const FinMode fins : {FinMode::Compacted, FinMode::Pulled, FinMode::Geometry}) {
-        RenderSettings settings = kSmall;
-        settings.look = look;
-        settings.shells = shells;
-        settings.finMode = fins;
-        settings.shellMode = fins == FinMode::Geometry ? ShellMode::Amplified : ShellMode::Instanced;
-        settings.time = 2.7;
-        std::vector<Image> images;
-        for (const BackendCase& backend : Backends()) {
-          TestDevice device(backend);
-          ASSERT_TRUE(device);
-          images.push_back(Render(device, model, settings, Close()).image);
-        }
-        EXPECT_GT(Colors(images[0]), 500u);
-        EXPECT_EQ(DifferingPixels(images[0], images[1]), 0u) << int(look) << " " << shells << " " << int(fins);
-      }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The published systems: each one's shells against closed forms, its textures, its limits, and one picture on every
-// backend. docs/presets.md states what is computed here.
+// The published systems: each one's shells against closed forms, its textures and its limits. docs/presets.md states
+// what is computed here.
 #include "presets.h"
 
 #include <algorithm>
@@ -334,60 +334,6 @@ TEST_P(Presets, OwnLookAndTechniqueOnly) {
   RenderSettings demo = Settings(Preset::DemoFur);
   demo.look = Look::Correct;
   EXPECT_TRUE(MakeRenderer(**device_, Animal(), demo));
-}
-
-// -------------------------------------------------------------------------------------------------------------- parity
-struct ParityCase {
-  Preset preset;
-  uint32_t samples;
-};
-void PrintTo(const ParityCase& c, std::ostream* out) { *out << TraitsOf(c.preset).name << ", " << c.samples; }
-std::vector<ParityCase> ParityCases() {
-  std::vector<ParityCase> cases;
-  for (const Preset preset : kAll)
-    for (const uint32_t samples : {1u, 4u}) cases.push_back({preset, samples});
-  return cases;
-}
-std::string ParityName(const testing::TestParamInfo<ParityCase>& info) {
-  std::string name = TraitsOf(info.param.preset).name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name + "_" + std::to_string(info.param.samples);
-}
-class PresetParity : public testing::TestWithParam<ParityCase> {};
-INSTANTIATE_TEST_SUITE_P(All, PresetParity, testing::ValuesIn(ParityCases()), ParityName);
-
-void ExpectSameOnEveryBackend(const Model& model, const RenderSettings& settings) {
-  std::vector<Frame> frames;
-  for (const BackendCase& backend : Backends()) {
-    TestDevice device(backend);
-    ASSERT_TRUE(device);
-    frames.push_back(Render(device, model, settings, AnimalCamera(), PlaceAnimals(1, 1)));
-  }
-  EXPECT_GT(frames[0].counts.finFragments, 100u);
-  EXPECT_GT(frames[0].counts.shellFragments, 1000u);
-  for (size_t i = 1; i < frames.size(); ++i) {
-    EXPECT_EQ(DifferingPixels(frames[0].image, frames[i].image), 0u);
-    EXPECT_EQ(frames[0].counts.finFragments, frames[i].counts.finFragments);
-    EXPECT_EQ(frames[0].counts.shellFragments, frames[i].counts.shellFragments);
-  }
-}
-
-TEST_P(PresetParity, SameOnEveryBackend) {
-  RenderSettings settings = AnimalSettings(GetParam().preset);
-  settings.samples = GetParam().samples;
-  settings.comb = {0.2, -0.3, 0.1};
-  settings.fourCoat = FourCoat::Tiger;
-  ExpectSameOnEveryBackend(Animal(), settings);
-}
-
-// A coat that thins out in sixteenths: many opacities lie half way between two of a target's eight bits.
-TEST_P(PresetParity, SameForOpacitiesBetweenTwoSteps) {
-  Model model = Animal();
-  model.materials[0].fur->params.heightFalloff = 1;
-  RenderSettings settings = AnimalSettings(GetParam().preset);
-  settings.samples = GetParam().samples;
-  settings.shells = 8;
-  ExpectSameOnEveryBackend(model, settings);
 }
 
 }  // namespace

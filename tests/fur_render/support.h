@@ -1,15 +1,13 @@
-// Devices, small models and pictures for the renderer's tests.
+// Devices for the renderer's tests, whose pictures are made by frames.h.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "fur/renderer.h"
+#include "frames.h"
 
 namespace fur::test {
 
@@ -36,6 +34,7 @@ class TestDevice {
   TestDevice(const TestDevice&) = delete;
   TestDevice& operator=(const TestDevice&) = delete;
   rhi::IDevice& operator*() { return *device_; }
+  operator rhi::IDevice&() { return *device_; }
   rhi::IDevice* operator->() { return device_.get(); }
   explicit operator bool() const { return device_.get() != nullptr; }
 
@@ -50,28 +49,5 @@ class OnEachBackend : public testing::TestWithParam<BackendCase> {
   void SetUp() override;
   std::unique_ptr<TestDevice> device_;
 };
-
-struct Frame {
-  Image image;
-  FrameCounts counts;
-};
-// One animal at `placements`, or in the origin without a turn.
-Frame Render(TestDevice&, const Model&, const RenderSettings&, const Camera&,
-             const std::vector<glm::dmat4>& placements = {glm::dmat4(1)});
-
-// The frame before it is brought to 8 bits.
-FloatImage Pixels(TestDevice&, const Model&, const RenderSettings&, const Camera&,
-                  const std::vector<glm::dmat4>& placements = {glm::dmat4(1)});
-
-// Whether there are pixels, and each is a number.
-bool AllFinite(const FloatImage&);
-
-using Rgb = std::array<int, 3>;
-Rgb PixelAt(const Image&, uint32_t x, uint32_t y);
-Rgb Center(const Image&);
-size_t Colors(const Image&);  // how many a picture has: a wrong one tends to have few
-uint64_t DifferingPixels(const Image&, const Image&);
-// Each channel within `tolerance` of 255 * expected.
-void ExpectColor(const Rgb& got, const glm::dvec3& expected, double tolerance, const std::string& what);
 
 }  // namespace fur::test
