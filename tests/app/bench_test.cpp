@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "program.h"
 
@@ -24,19 +22,6 @@ std::vector<std::string> Tiny(const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = Bench(kTiny);
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
-}
-
-std::string Text(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-size_t Count(const std::string& text, const std::string& word) {
-  size_t count = 0;
-  for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
-  return count;
 }
 
 TEST(BenchCommand, ListsItsPlan) {
@@ -156,7 +141,7 @@ std::string DomInChromium(const std::string& page, const Folder& folder) {
                               (folder / "profile") + "' --window-size=1400,1000 --dump-dom 'file://" + page + "' > '" +
                               dom + "' 2> /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  return Text(dom);
+  return ReadText(dom);
 }
 
 // Appended to a copy of the page: writes what it finds wrong into the document's title.
@@ -194,7 +179,7 @@ TEST(BenchCommand, ThePageIsWholeInABrowser) {
   ExpectSuccess(RunFur(arguments));
   const size_t rows = ReadJson(json)["scenes"][0]["results"].size();
   EXPECT_GT(rows, 12u);
-  const std::string html = Text(page);
+  const std::string html = ReadText(page);
   EXPECT_EQ(html.find("<i>"), std::string::npos);
   EXPECT_NE(html.find("&lt;i&gt;&amp;&quot;&#39;.json"), std::string::npos);
   EXPECT_EQ(html.find("http"), std::string::npos) << "needs no network";

@@ -52,6 +52,9 @@ void ExpectRenderFailure(const std::vector<std::string>& arguments, ExitCode,
 // Exit code 0 and nothing on stderr.
 void ExpectSuccess(const Outcome&);
 
+std::string ReadText(const std::filesystem::path& file);  // all of it; empty where there is none
+size_t Count(const std::string& text, const std::string& word);  // how often it stands there
+
 fur::Image Picture(const std::string& file);  // fails the test when it is not there
 nlohmann::json ReadJson(const std::string& file);
 uint64_t DifferingPixels(const fur::Image&, const fur::Image&);

@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <regex>
 #include <sstream>
 
 namespace conformance {
 namespace {
 
+using app::test::Count;
 using app::test::Folder;
 using app::test::Outcome;
 using app::test::ReadJson;
+using app::test::ReadText;
 using app::test::RunFur;  // runs fur_conformance here: FUR_PROGRAM
 
 std::vector<std::string> Lines(const std::string& text) {
@@ -20,19 +21,6 @@ std::vector<std::string> Lines(const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
-}
-
-std::string Text(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-size_t Count(const std::string& text, const std::string& word) {
-  size_t count = 0;
-  for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
-  return count;
 }
 
 void ExpectRefused(const std::vector<std::string>& flags, int code, const std::string& word) {
@@ -114,7 +102,7 @@ TEST(ConformanceProgram, ReportsAgree) {
   EXPECT_EQ(j["cases"].size(), 9u);
   EXPECT_EQ(j["passed"], 9);
   EXPECT_EQ(j["drivers"][0]["key"], "vulkan:lavapipe");
-  const std::string xml = Text(folder / "r.xml"), html = Text(folder / "r.html");
+  const std::string xml = ReadText(folder / "r.xml"), html = ReadText(folder / "r.html");
   EXPECT_EQ(Count(xml, "<testcase "), 9u + 1) << "and the run as a whole";
   EXPECT_NE(xml.find("tests=\"10\" failures=\"0\""), std::string::npos) << xml.substr(0, 300);
   EXPECT_EQ(Count(html, "<tr class="), 9u);
@@ -133,9 +121,9 @@ TEST(ConformanceProgram, ReadBacksAreTheBytesOfThePictures) {
   const Folder folder;
   for (const char* backend : {"vulkan", "gl"})
     EXPECT_EQ(RunFur({"--filter", std::string("blend.write_mask.") + backend, "--read-backs", folder / backend}).exitCode, 0);
-  const std::string bytes = Text(folder / "gl");
+  const std::string bytes = ReadText(folder / "gl");
   EXPECT_GT(bytes.size(), 100u);
-  EXPECT_TRUE(bytes == Text(folder / "vulkan"));
+  EXPECT_TRUE(bytes == ReadText(folder / "vulkan"));
   ExpectRefused({"--read-backs", "/proc/x"}, 5, "/proc/x");
 }
 
@@ -151,7 +139,7 @@ TEST(ConformanceProgram, APlantedDifferenceFails) {
       {"planted.one_lsb.cpu", "FAILED"},  {"planted.message.vulkan", "FAILED"}, {"planted.skip.gl", "FAILED"},
       {"planted.bytes.vulkan", "passed"}, {"planted.bytes.gl", "FAILED"},       {"planted.pictures.both", "FAILED"}};
   EXPECT_EQ(results, expected);
-  EXPECT_EQ(Count(Text(folder / "r.xml"), "<failure "), 5u);
+  EXPECT_EQ(Count(ReadText(folder / "r.xml"), "<failure "), 5u);
 }
 
 // Looks at the page as its readers do. "" without Chromium.
@@ -162,7 +150,7 @@ std::string DomInChromium(const std::string& page, const std::string& hash, cons
                               (folder / "profile") + "' --window-size=1400,1000 --dump-dom 'file://" + page + "#" +
                               hash + "' > '" + dom + "' 2> /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  return Text(dom);
+  return ReadText(dom);
 }
 
 // Appended to a copy of the page: uses its filters and writes what they show into the document's title.
@@ -208,7 +196,7 @@ TEST(ConformanceProgram, ThePageWorksInABrowser) {
     });
   };
   // All pictures at once: the browser is looked at when they are there.
-  const std::string page = std::regex_replace(Text(folder / "r.html"), std::regex("loading=\"lazy\" "), "");
+  const std::string page = std::regex_replace(ReadText(folder / "r.html"), std::regex("loading=\"lazy\" "), "");
   const std::string inspected = folder.Write("inspected.html", page + kInspector);
   const std::string dom = DomInChromium(inspected, "", folder);
   if (dom.empty()) GTEST_SKIP() << "chromium is not installed: the page was not opened";
