@@ -1,6 +1,6 @@
 // The pixel of shells and fins: coverage and colour of the fur at a place and a height, premultiplied.
-// Variants: LOOK_SEED (published lighting), VOLUME (opacity by path length), BETWEEN_SLICES (a shell may lie between two
-// slices of the volume; without it each lies on one), GROOM (clumps, density, colours: fur_groom.hlsli), TINT (the strands
+// Variants: LOOK_SEED (published lighting), VOLUME (opacity by path length), BETWEEN_SLICES (of the whole volume, linear
+// between two slices; without it each shell has a slice of its own), GROOM (clumps, density, colours: fur_groom.hlsli), TINT (the strands
 // have colours of their own; look correct).
 #ifndef FUR_SHADE_HLSLI
 #define FUR_SHADE_HLSLI
@@ -28,6 +28,9 @@ struct Fur {
 #define READ_SLICE(map) map.Sample(volumeSampler, float3(tiles, slice))
 #endif
 
+// The number of the shell at a height (i + 1/2) / N.
+float ShellOf(float height) { return height * furShape.w - 0.5; }
+
 float4 ReadSlice(float2 tiles, float slice, float2 dx, float2 dy) { return READ_SLICE(furVolume); }
 
 // Coverage and packed tangent, linear between slices: slice j is centred at (j + 1/2) / N0, and clamped at the ends.
@@ -40,7 +43,7 @@ float4 ReadVolume(float2 tiles, float height, float2 dx, float2 dy) {
   float4 lower = ReadSlice(tiles, below, dx, dy);
   float4 fur = lower + (ReadSlice(tiles, above, dx, dy) - lower) * (slice - below);
 #else
-  float4 fur = ReadSlice(tiles, slice, dx, dy);
+  float4 fur = ReadSlice(tiles, ShellOf(height), dx, dy);
 #endif
   fur.a = min(fur.a * (1.0 - furLight.w * slice / furShape.z), kMostCoverage);
   return fur;
@@ -58,7 +61,7 @@ float3 ReadTint(float2 tiles, float height, float2 dx, float2 dy) {
   float3 lower = ReadTintSlice(tiles, below, dx, dy);
   float3 own = lower + (ReadTintSlice(tiles, above, dx, dy) - lower) * (slice - below);
 #else
-  float3 own = ReadTintSlice(tiles, slice, dx, dy);
+  float3 own = ReadTintSlice(tiles, ShellOf(height), dx, dy);
 #endif
   return 1.0 + (own * (255.0 / 128.0) - 1.0) * furSemantics.w;
 }

@@ -30,7 +30,7 @@ struct RenderFlags {
   SceneFlags scene;
   std::string output = "fur.png", backend = "vulkan", technique = "shells", preset, stats, shellMode = "sorted",
               finMode = "auto", adapter;
-  uint32_t samples = 1, shells = 0, shellsAtOnce = 1, repeat = 1, supersample = 1;
+  uint32_t samples = 1, skinSamples = 0, shells = 0, shellsAtOnce = 1, repeat = 1, supersample = 1;
   double finThreshold = 0.25, deadZone = 0.25, spacing = 0;
   std::optional<double> finOpacity;
   bool floatTextures = false, noFins = false, noShells = false, noBackFaces = false, noSort = false, validate = false;
@@ -59,6 +59,7 @@ void SetShellOptions(const RenderFlags& f, fur::RenderSettings* s) {
 Result<fur::RenderSettings> MakeSettings(const RenderFlags& f) {
   fur::RenderSettings s;
   s.samples = f.samples;
+  s.skinSamples = f.skinSamples;
   s.look = LookOf(f.scene);
   s.technique = f.technique == "seed" ? fur::Technique::Seed : fur::Technique::Shells;
   if (Result<Done> preset = SetPreset(f.preset, f.scene.coat, f.given, &s); !preset) return preset.error();
@@ -204,6 +205,8 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
       ->check(CLI::IsMember({"vulkan", "gl", "both"}))->capture_default_str();
   c->add_option("--adapter", f->adapter, "Part of an adapter's name (fur info lists them); default: the first");
   c->add_option("--samples", f->samples, "Samples a pixel, 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
+  c->add_option("--skin-samples", f->skinSamples, "Samples a pixel of the skin alone, 1 or 4; default: as --samples; technique shells")
+      ->check(CLI::IsMember({1, 4}));
   c->add_option("--supersample", f->supersample, "Frames N times as wide and high, averaged in linear light; technique shells")
       ->check(CLI::Range(1u, 8u))->capture_default_str();
   c->add_option("--technique", f->technique, "shells, or seed: shells and fins as published")->check(CLI::IsMember({"shells", "seed"}))->capture_default_str();

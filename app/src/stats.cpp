@@ -1,5 +1,7 @@
 #include "stats.h"
 
+#include <algorithm>
+
 #include "fur/bench.h"
 
 namespace app {
@@ -31,6 +33,7 @@ nlohmann::ordered_json StatsJson(const RenderOutcome& out, const RenderJob& job)
   j["height"] = job.settings.height / job.supersample;
   j["supersample"] = job.supersample;
   j["samples"] = job.settings.samples;
+  j["skin_samples"] = std::max(job.settings.skinSamples, job.settings.samples);
   j["animals"] = job.placements.size();
   j["first_frame_ms"] = out.firstFrameMs;
   j["frame_ms"] = out.frameMs;

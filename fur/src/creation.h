@@ -41,9 +41,18 @@ class Creation {
     rhi::BlendDesc desc;
     desc.rt[0] = {.enable = source != rhi::Blend::One || dest != rhi::Blend::Zero,
                   .src = source, .dest = dest, .srcAlpha = source, .destAlpha = dest};
+    return Blend(desc);
+  }
+  rhi::Ref<rhi::IBlendState> Blend(const rhi::BlendDesc& desc) {
     rhi::Ref<rhi::IBlendState> state;
     Check(device_.CreateBlendState(desc, &state), "a blend state");
     return state;
+  }
+  // Draws that are for the depth alone.
+  rhi::Ref<rhi::IBlendState> NoColor() {
+    rhi::BlendDesc desc;
+    desc.rt[0].writeMask = 0;
+    return Blend(desc);
   }
   rhi::Ref<rhi::ISamplerState> Sampler(rhi::AddressMode uv, float mipBias) {
     rhi::SamplerDesc desc;

@@ -246,23 +246,39 @@ class Uploader {
     return mips;
   }
 
-  rhi::Ref<rhi::IShaderResourceView> Volume(const FurVolume& volume, double heightFalloff) {
-    return Texture(VolumeMips(volume, heightFalloff), volume.width, volume.height, true, rhi::Format::RGBA8_UNorm,
-                   volume.name);
+  // A volume or its tint: the levels of all slices, and what was uploaded of them, by the number of slices.
+  struct SharedSlices {
+    std::vector<MipChain> slices;
+    std::map<uint32_t, rhi::Ref<rhi::IShaderResourceView>> views;
+  };
+
+  rhi::Ref<rhi::IShaderResourceView> UploadSlices(SharedSlices* shared, const FurVolume& volume, uint32_t count,
+                                                  const std::string& name) {
+    rhi::Ref<rhi::IShaderResourceView>& view = shared->views[count];
+    if (!view)
+      view = Texture(count == volume.layers ? shared->slices : SlicesAtShells(shared->slices, count), volume.width,
+                     volume.height, true, rhi::Format::RGBA8_UNorm, name);
+    return view;
   }
 
-  rhi::Ref<rhi::IShaderResourceView> Tint(const FurVolume& volume) {
-    return Texture(MakeTintMips(WithoutTopSlice(volume)), volume.width, volume.height, true, rhi::Format::RGBA8_UNorm,
-                   volume.name + " tint");
+  // Fewer shells than slices read slices of their own, one where they would read two; fins read all heights.
+  void AddVolume(int32_t index, const FurVolume& volume, const FurParams& p, double falloff, GpuMaterial* gpu) {
+    SharedSlices& shared = furVolumes_[{index, p.thickness, falloff}];
+    if (shared.slices.empty()) shared.slices = VolumeMips(volume, falloff);
+    gpu->furVolume = UploadSlices(&shared, volume, volume.layers, volume.name);
+    const bool own = settings_.technique == Technique::Shells && gpu->shells < volume.layers;
+    gpu->shellVolume = own ? UploadSlices(&shared, volume, gpu->shells, volume.name) : gpu->furVolume;
   }
 
   // Strands' own colours belong to look correct: no published system has them.
   void AddTint(int32_t index, const FurVolume& volume, const FurParams& p, GpuMaterial* gpu) {
     gpu->tinted = settings_.technique == Technique::Shells && Correct() && p.tint > 0 && !volume.tint.empty();
     if (!gpu->tinted) return;
-    rhi::Ref<rhi::IShaderResourceView>& uploaded = furTints_[{index, p.thickness}];
-    if (!uploaded) uploaded = Tint(volume);
-    gpu->furTint = uploaded;
+    SharedSlices& shared = furTints_[{index, p.thickness}];
+    if (shared.slices.empty()) shared.slices = MakeTintMips(WithoutTopSlice(volume));
+    const std::string name = volume.name + " tint";
+    gpu->furTint = UploadSlices(&shared, volume, volume.layers, name);
+    gpu->shellTint = UploadSlices(&shared, volume, std::min(gpu->shells, volume.layers), name);
   }
 
   MaterialConstants SurfaceConstants(const Material& m) const {
@@ -351,10 +367,7 @@ class Uploader {
     // The demo's shells lose coverage with height whatever the volume holds.
     const double falloff = AsShipped() ? 1 : p.heightFalloff;
     const double length = gpu->length = WetLength(FurLength(index, p, gpu->shells), p.wetness);
-    // Uploaded once however many materials wear it: its mips are the dearest thing made here.
-    rhi::Ref<rhi::IShaderResourceView>& uploaded = furVolumes_[{fur.volume, p.thickness, falloff}];
-    if (!uploaded) uploaded = Volume(volume, falloff);
-    gpu->furVolume = uploaded;
+    AddVolume(fur.volume, volume, p, falloff, gpu);
     AddTint(fur.volume, volume, p, gpu);
     c->furShape = {float(length), float(p.layerUvScale), float(volume.layers), float(gpu->shells)};
     c->furLight = {float(p.selfShadow), float(p.specularPower), float(p.specularScale), float(falloff)};
@@ -362,8 +375,7 @@ class Uploader {
     c->furSemantics = {float(LeastCosine(gpu->shells)), float(volume.layers) / float(gpu->shells),
                        float(length / gpu->shells), float(p.tint)};
     c->fin = {float(settings_.finThreshold), float(FinOpacity()), float(settings_.finDeadZone), 0};
-    // (i + 1/2) N0 / N - 1/2 is whole for every i where N0 / N is odd.
-    gpu->betweenSlices = volume.layers % gpu->shells != 0 || volume.layers / gpu->shells % 2 == 0;
+    gpu->betweenSlices = gpu->shells > volume.layers;
     AddGroom(p, gpu, c);
     AddPreset(m, volume, gpu, c);
   }
@@ -406,10 +418,9 @@ class Uploader {
   const RenderSettings& settings_;
   const Bounds bounds_;
   std::map<std::pair<int32_t, MipFilter>, rhi::Ref<rhi::IShaderResourceView>> modelTextures_;
-  // By volume, thickness and height falloff.
-  std::map<std::tuple<int32_t, double, double>, rhi::Ref<rhi::IShaderResourceView>> furVolumes_;
-  // By volume and thickness, whose coverage weighs.
-  std::map<std::pair<int32_t, double>, rhi::Ref<rhi::IShaderResourceView>> furTints_;
+  // However many materials wear it: mips of volumes are the dearest thing made here. By volume, thickness, height falloff.
+  std::map<std::tuple<int32_t, double, double>, SharedSlices> furVolumes_;
+  std::map<std::pair<int32_t, double>, SharedSlices> furTints_;  // by volume and thickness, whose coverage weighs
   bool failed_ = false;
   Error error_;
 };

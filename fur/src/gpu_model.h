@@ -32,12 +32,13 @@ struct GpuMaterial {
   rhi::Ref<rhi::IShaderResourceView> baseColor, normal, specular;  // never null
   rhi::Ref<rhi::IShaderResourceView> lengthMap, furVolume;         // null on bald materials
   rhi::Ref<rhi::IShaderResourceView> furTint;                      // null but for `tinted`
+  rhi::Ref<rhi::IShaderResourceView> shellVolume, shellTint;       // what shells read of both: min(N, N0) slices
   rhi::Ref<rhi::IShaderResourceView> opacityMap, finMap, spots;    // null where the preset has none (presets.h)
   rhi::Ref<rhi::ISamplerState> surfaceSampler;
   rhi::Ref<rhi::IBuffer> constants;  // MaterialConstants
   uint32_t shells = 0;               // 0: bald
   double length = 0;                 // of the fur, in the primitive's units, wet as it is
-  bool betweenSlices = false;        // a shell may lie between two slices of the volume
+  bool betweenSlices = false;        // a shell may lie between two slices of shellVolume
   bool doubleSided = false;
   FurParams groom;                // for how it leans (fur/groom.h), with the settings' comb and wind_length resolved
   bool groomed = false;           // shaded by the variants GROOM

@@ -125,13 +125,29 @@ BasePass::BasePass(Creation& c, Look look, const rhi::ShaderBlob* furred)
       ps_(c.Shader(look == Look::Seed ? shaders::base_PSMain_seed : shaders::base_PSMain)),
       furred_(furred ? c.Shader(*furred) : ps_),
       wet_(furred ? furred_ : c.Shader(look == Look::Seed ? shaders::base_PSMain_seed_wet : shaders::base_PSMain_wet)),
-      layout_(ModelLayout(c, vs_.get())) {}
+      layout_(ModelLayout(c, vs_.get())),
+      noColor_(c.NoColor()) {}
 
 void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
                     const FrameInputs& in) const {
+  DrawParts(context, binding, model, in, Shading::Full);
+}
+
+void BasePass::DrawDepth(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
+                         const FrameInputs& in) const {
+  DrawParts(context, binding, model, in, Shading::None);
+}
+
+rhi::IShader* BasePass::PixelShader(const GpuMaterial& material) const {
+  if (material.shells == 0) return ps_.get();
+  return material.wet ? wet_.get() : furred_.get();
+}
+
+void BasePass::DrawParts(rhi::IContext& context, const PassBinding& binding, const GpuModel& model, const FrameInputs& in,
+                         Shading shading) const {
   context.IASetInputLayout(layout_.get());
   context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
-  context.OMSetBlendState(binding.opaque.get());
+  context.OMSetBlendState(shading == Shading::Full ? binding.opaque.get() : noColor_.get());
   context.OMSetDepthStencilState(binding.depthWrite.get());
   for (size_t animal = 0; animal < in.placements.size(); ++animal)
     for (const GpuPart& part : model.parts) {
@@ -139,8 +155,8 @@ void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const Gp
       const GpuGeometry& g = model.geometry[part.primitive];
       context.RSSetState(binding.Cull(in.placements[animal], part,
                                       material.doubleSided ? rhi::CullMode::None : rhi::CullMode::Back));
-      rhi::IShader* ps = material.shells == 0 ? ps_.get() : material.wet ? wet_.get() : furred_.get();
-      PassBinding::SetShaders(context, in, vs_.get(), nullptr, ps);
+      PassBinding::SetShaders(context, in, vs_.get(), nullptr,
+                              shading == Shading::Full ? PixelShader(material) : nullptr);
       binding.SetMaterial(context, material);
       PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.indices.get());
       binding.SetObject(context, in, animal, part, material);

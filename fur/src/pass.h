@@ -42,10 +42,17 @@ class BasePass {
   // `furred`: the pixel shader of furred materials; null: that of all others.
   BasePass(Creation&, Look, const rhi::ShaderBlob* furred = nullptr);
   void Draw(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&) const;
+  // Leaves the colours as they are.
+  void DrawDepth(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&) const;
 
  private:
+  enum class Shading { Full, None };
+  void DrawParts(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, Shading) const;
+  rhi::IShader* PixelShader(const GpuMaterial&) const;
+
   rhi::Ref<rhi::IShader> vs_, ps_, furred_, wet_;
   rhi::Ref<rhi::IInputLayout> layout_;
+  rhi::Ref<rhi::IBlendState> noColor_;
 };
 
 // The vertex layout of fur::Vertex.

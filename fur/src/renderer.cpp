@@ -10,22 +10,12 @@
 #include "finite.h"
 #include "fur_shaders/fur_shaders.h"
 #include "presets.h"
+#include "skin_pass.h"
+#include "targets.h"
 #include "technique.h"
 
 namespace fur {
 namespace {
-
-// A colour and a depth target, and the single-sampled texture that is read.
-struct Targets {
-  rhi::Ref<rhi::ITexture> color, depth, resolved;  // resolved: color itself at one sample
-  rhi::Ref<rhi::IRenderTargetView> colorView;
-  rhi::Ref<rhi::IDepthStencilView> depthView;
-  rhi::Format format = rhi::Format::Unknown;
-};
-
-rhi::Format PictureFormat(Look look) {
-  return look == Look::Correct ? rhi::Format::RGBA8_UNorm_sRGB : rhi::Format::RGBA8_UNorm;
-}
 
 // Half floats lose up to 2^-11 of the value at every shell (llvmpipe cuts off), which 32 shells keep below 1/255.
 constexpr uint32_t kMostShellsInHalf = 32;
@@ -41,37 +31,6 @@ TargetFormat ResolveTarget(const RenderSettings& s, uint32_t shells) {
   if (s.target != TargetFormat::Auto) return s.target;
   if (s.technique == Technique::Seed) return TargetFormat::Unorm8;
   return shells > kMostShellsInHalf ? TargetFormat::Float32 : TargetFormat::Float16;
-}
-
-rhi::Format FrameFormat(const RenderSettings& s) {
-  switch (s.target) {
-    case TargetFormat::Float16: return rhi::Format::RGBA16_Float;
-    case TargetFormat::Float32: return rhi::Format::RGBA32_Float;
-    default: return PictureFormat(s.look);
-  }
-}
-
-rhi::Status MakeTargets(rhi::IDevice& device, const RenderSettings& s, uint32_t samples, Targets* t) {
-  using namespace rhi;
-  t->format = FrameFormat(s);
-  TextureDesc color{.dim = samples > 1 ? TextureDim::Tex2DMS : TextureDim::Tex2D, .width = s.width, .height = s.height,
-                    .sampleCount = samples, .format = t->format, .bind = Bind::RenderTarget | Bind::ShaderResource,
-                    .name = "colour"};
-  TextureDesc depth = color;
-  depth.format = Format::D32_Float;
-  depth.bind = Bind::DepthStencil;
-  depth.name = "depth";
-  Status status = device.CreateTexture(color, nullptr, &t->color);
-  if (status == Status::Ok) status = device.CreateTexture(depth, nullptr, &t->depth);
-  if (status == Status::Ok) status = device.CreateRenderTargetView(t->color.get(), nullptr, &t->colorView);
-  if (status == Status::Ok) status = device.CreateDepthStencilView(t->depth.get(), nullptr, &t->depthView);
-  if (status != Status::Ok) return status;
-  t->resolved = t->color;
-  if (samples == 1) return Status::Ok;
-  color.dim = TextureDim::Tex2D;
-  color.sampleCount = 1;
-  color.name = "resolved";
-  return device.CreateTexture(color, nullptr, &t->resolved);
 }
 
 float HalfToFloat(uint16_t h) { return glm::unpackHalf1x16(h); }
@@ -132,12 +91,14 @@ class RendererImpl final : public Renderer {
 
   Result<Done> Init(const Model& model) {
     if (Result<Done> ok = CheckPreset(device_.GetCaps(), settings_); !ok) return ok.error();
+    if (Result<Done> ok = CheckSkinSamples(settings_); !ok) return ok.error();
     if (Result<Done> ok = CheckModel(model); !ok) return ok.error();
     Result<GpuModel> uploaded = UploadModel(device_, model, settings_);
     if (!uploaded) return uploaded.error();
     model_ = std::move(*uploaded);
     settings_.target = ResolveTarget(settings_, MostShells(model_));
-    const rhi::Status status = MakeTargets(device_, settings_, settings_.samples, &targets_);
+    rhi::Status status = MakeTargets(device_, settings_, settings_.samples, &targets_);
+    if (status == rhi::Status::Ok) status = MakeResolved();
     if (status != rhi::Status::Ok) return DriverError(status, "cannot create the targets");
     Result<std::unique_ptr<ITechnique>> technique = settings_.technique == Technique::Seed
                                                         ? MakeSeedTechnique(device_, settings_)
@@ -146,7 +107,7 @@ class RendererImpl final : public Renderer {
     technique_ = std::move(*technique);
     if (settings_.target == TargetFormat::Unorm8) return Done{};
     Creation creation(device_);
-    presenter_.emplace(creation, settings_, targets_.resolved.get());
+    presenter_.emplace(creation, settings_, resolved_.get());
     if (creation.Failed()) return creation.Failure();
     return Done{};
   }
@@ -156,7 +117,7 @@ class RendererImpl final : public Renderer {
     const FrameInputs in = Inputs(camera, placements, motion, &counts);
     DrawInto(targets_, in);
     if (settings_.samples > 1)
-      Context().ResolveSubresource(targets_.resolved.get(), 0, targets_.color.get(), 0, targets_.format);
+      Context().ResolveSubresource(resolved_.get(), 0, targets_.color.get(), 0, targets_.format);
     if (presenter_) presenter_->Draw(Context());
     Context().EndFrame();
   }
@@ -170,7 +131,7 @@ class RendererImpl final : public Renderer {
   Result<Image> ReadImage() override {
     Image image{"frame", settings_.width, settings_.height, {}};
     image.pixels.resize(size_t(image.width) * image.height * 4);
-    rhi::ITexture* picture = presenter_ ? presenter_->Picture() : targets_.resolved.get();
+    rhi::ITexture* picture = presenter_ ? presenter_->Picture() : resolved_.get();
     const rhi::Status status = device_.ReadBack(picture, 0, image.pixels.data(), image.pixels.size());
     if (status != rhi::Status::Ok) return DriverError(status, "cannot read the frame back");
     for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
@@ -186,7 +147,7 @@ class RendererImpl final : public Renderer {
     std::vector<uint16_t> halves(half ? image.pixels.size() * 4 : 0);
     void* const out = half ? static_cast<void*>(halves.data()) : image.pixels.data();
     const size_t bytes = image.pixels.size() * (half ? 8 : 16);
-    const rhi::Status status = device_.ReadBack(targets_.resolved.get(), 0, out, bytes);
+    const rhi::Status status = device_.ReadBack(resolved_.get(), 0, out, bytes);
     if (status != rhi::Status::Ok) return DriverError(status, "cannot read the frame back");
     for (size_t i = 0; i < halves.size(); ++i) image.pixels[i / 4][int(i % 4)] = HalfToFloat(halves[i]);
     return image;
@@ -217,6 +178,14 @@ class RendererImpl final : public Renderer {
 
  private:
   rhi::IContext& Context() { return *device_.ImmediateContext(); }
+
+  rhi::Status MakeResolved() {
+    resolved_ = targets_.color;
+    if (settings_.samples == 1) return rhi::Status::Ok;
+    return device_.CreateTexture({.width = settings_.width, .height = settings_.height, .format = targets_.format,
+                                  .bind = rhi::Bind::RenderTarget | rhi::Bind::ShaderResource, .name = "resolved"},
+                                 nullptr, &resolved_);
+  }
 
   FrameInputs Inputs(const Camera& camera, std::span<const glm::dmat4> placements, const Motion& motion,
                      FrameCounts* counts) {
@@ -254,14 +223,13 @@ class RendererImpl final : public Renderer {
     in->motion.offsets = finiteOffsets_;
   }
 
-  void DrawInto(const Targets& targets, const FrameInputs& in) {
+  void DrawInto(const Targets& targets, FrameInputs in) {
     rhi::IContext& context = Context();
-    rhi::IRenderTargetView* const views[] = {targets.colorView.get()};
-    context.OMSetRenderTargets(1, views, targets.depthView.get());
     // Techniques that blend premultiplied leave the opacity of what they drew in alpha.
-    const glm::vec4 background(settings_.background, settings_.technique == Technique::Seed ? 1 : 0);
-    context.ClearRenderTargetView(targets.colorView.get(), &background.x);
-    context.ClearDepthStencilView(targets.depthView.get(), true, 0, false, 0);
+    in.background = glm::vec4(settings_.background, settings_.technique == Technique::Seed ? 1 : 0);
+    in.targets = &targets;
+    BindTargets(context, targets);
+    ClearTargets(context, targets, in.background);
     const rhi::Viewport viewport{.width = float(settings_.width), .height = float(settings_.height)};
     context.RSSetViewports(1, &viewport);
     technique_->Draw(context, model_, in);
@@ -275,6 +243,7 @@ class RendererImpl final : public Renderer {
   rhi::IDevice& device_;
   RenderSettings settings_;
   Targets targets_;
+  rhi::Ref<rhi::ITexture> resolved_;  // at one sample the targets' colour itself
   GpuModel model_;
   std::unique_ptr<ITechnique> technique_;
   std::optional<Presenter> presenter_;

@@ -11,6 +11,7 @@ namespace {
 uint32_t ShellsInGs() { return shaders::shell_amplify_GSMain.reflection.gsMaxVertices / 3; }
 uint32_t VaryingScalars() { return shaders::shell_amplify_GSMain.reflection.gsOutputComponents; }
 
+constexpr uint32_t kVolumeSlot = 4, kTintSlot = 8;  // fur_volume.hlsli
 constexpr uint32_t kFirstSlot = 5;  // sorted: t5: vertices, t6: order, t7: indices
 
 // By + 1: look seed, + 2: volume, + 4: between slices, + 8: groomed.
@@ -147,6 +148,9 @@ void ShellPass::BindPart(rhi::IContext& context, const PassBinding& binding, con
   PassBinding::SetShaders(context, in, vs_.For(material), gs_.For(material), ps_[shader].get());
   context.RSSetState(binding.Cull(in.placements[animal], part, cull));
   binding.SetMaterial(context, material);
+  rhi::IShaderResourceView *const volume = material.shellVolume.get(), *const tint = material.shellTint.get();
+  context.PSSetShaderResources(kVolumeSlot, 1, &volume);
+  context.PSSetShaderResources(kTintSlot, 1, &tint);
   binding.SetObject(context, in, animal, part, material);
 }
 

@@ -9,6 +9,7 @@
 #include "fur_shaders/fur_shaders.h"
 #include "pass.h"
 #include "shell_pass.h"
+#include "skin_pass.h"
 
 namespace fur {
 namespace {
@@ -18,7 +19,7 @@ class ShellsTechnique final : public ITechnique {
   ShellsTechnique(Creation& c, const RenderSettings& settings)
       : settings_(settings),
         binding_(c, kVolumeMipBias),
-        base_(c, settings.look),
+        skin_(c, settings),
         fins_(c, settings),
         shells_(c, settings),
         over_(c.Blend(rhi::Blend::One, rhi::Blend::InvSrcAlpha)) {}
@@ -30,7 +31,7 @@ class ShellsTechnique final : public ITechnique {
     sorted.motion.offsets = order.offsets;
     binding_.BindFrame(context, in);
     if (settings_.drawFins) fins_.Prepare(context, binding_, model, sorted);
-    DrawBase(context, model, sorted);
+    DrawSkin(context, model, sorted);
     context.OMSetBlendState(over_.get());
     context.OMSetDepthStencilState(binding_.depthRead.get());
     if (in.passQueries.empty()) {
@@ -64,12 +65,12 @@ class ShellsTechnique final : public ITechnique {
   }
 
   // Nearest first, so that what is hidden is not shaded.
-  void DrawBase(rhi::IContext& context, const GpuModel& model, const FrameInputs& sorted) const {
+  void DrawSkin(rhi::IContext& context, const GpuModel& model, const FrameInputs& sorted) const {
     const std::vector<glm::dmat4> nearestFirst(sorted.placements.rbegin(), sorted.placements.rend());
     FrameInputs in = sorted;
     in.placements = nearestFirst;
     in.motion.offsets = {};
-    RunPass(context, in, Pass::Base, [&] { base_.Draw(context, binding_, model, in); });
+    RunPass(context, in, Pass::Base, [&] { skin_.Draw(context, binding_, model, in); });
   }
 
   void DrawAllFur(rhi::IContext& context, const GpuModel& model, const FrameInputs& in, bool fins) {
@@ -85,7 +86,7 @@ class ShellsTechnique final : public ITechnique {
 
   RenderSettings settings_;
   PassBinding binding_;
-  BasePass base_;
+  SkinPass skin_;
   FinPass fins_;
   ShellPass shells_;
   rhi::Ref<rhi::IBlendState> over_;

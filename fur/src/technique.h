@@ -7,6 +7,7 @@
 #include "fur/renderer.h"
 #include "gpu_model.h"
 #include "gpu_constants.h"
+#include "targets.h"
 
 namespace fur {
 
@@ -22,6 +23,8 @@ struct FrameInputs {
   FrameCounts* counts = nullptr;                          // never null
   rhi::IShader* countingShader = nullptr;                 // set: replaces every pixel shader
   std::span<const rhi::Ref<rhi::IQuery>> passQueries;     // empty, or one occlusion query for each pass
+  const Targets* targets = nullptr;                       // never null while a technique draws
+  glm::vec4 background{0};                                // that they were cleared to
   Motion motion{};                                        // time: the settings' added
 
   glm::dvec3 OffsetOf(size_t animal) const {

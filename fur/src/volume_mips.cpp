@@ -137,4 +137,21 @@ std::vector<MipChain> MakeTintMips(const FurVolume& volume) {
   return slices;
 }
 
+std::vector<MipChain> SlicesAtShells(const std::vector<MipChain>& slices, uint32_t shells) {
+  const double last = double(slices.size()) - 1;
+  std::vector<MipChain> out;
+  for (uint32_t i = 0; i < shells; ++i) {
+    const double slice = std::clamp((i + 0.5) / shells * double(slices.size()) - 0.5, 0.0, last);
+    const auto below = size_t(slice);
+    const MipChain &lower = slices[below], &upper = slices[std::min(below + 1, slices.size() - 1)];
+    MipChain& levels = out.emplace_back(lower);
+    for (size_t level = 0; level < levels.size(); ++level)
+      for (size_t b = 0; b < levels[level].size(); ++b)
+        // Halves to even: at N0 / N = 2 every second value is one, and rounding all of them up would thicken the fur.
+        levels[level][b] =
+            uint8_t(std::nearbyint(lower[level][b] + (upper[level][b] - lower[level][b]) * (slice - double(below))));
+  }
+  return out;
+}
+
 }  // namespace fur

@@ -19,4 +19,8 @@ std::vector<MipChain> MakeVolumeMips(const FurVolume&, double heightFalloff);
 // without fur; the plain mean where there is none. `volume.tint` is not empty.
 std::vector<MipChain> MakeTintMips(const FurVolume& volume);
 
+// What `shells` shells, fewer than slices, read at their heights (i + 1/2) / N: for each shell its levels, linear between the
+// two slices next to it as the shader would read them (fur_shade.hlsli), rounded to 8 bits once more.
+std::vector<MipChain> SlicesAtShells(const std::vector<MipChain>& slices, uint32_t shells);
+
 }  // namespace fur

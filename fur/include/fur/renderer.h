@@ -75,6 +75,10 @@ struct RenderSettings {
   glm::dvec3 background{0};  // linear for Correct, raw for Seed
   Light light;
 
+  // Of the skin alone, 1 or 4, 0: as samples. Smooth whiskers, eyes and bald parts without the cost of smooth fur; with
+  // samples 1, technique shells.
+  uint32_t skinSamples = 0;
+
   // Technique shells only; but fins' threshold and opacity, the comb and the spacing also where a preset has them.
   ShellMode shellMode = ShellMode::Sorted;
   // Amplified: 1..14. Above 1 the triangles are sorted back to front and the picture is that of one at a time only
