@@ -25,11 +25,12 @@ void GSMain(lineadj FurVertex v[4], inout TriangleStream<FurVarying> fins) {
 }
 
 float4 PSMain(FurVarying v) : SV_Target {
+  float4 texel = ReadSurface(v);
   Fur fur = ReadFur(v.uv.zw, v.fur.x);
 #ifdef FIN_IN_VOLUME
-  float alpha = SlabOpacity(fur.coverage, fur.crowding * furShape.z * WayInVolume(v)) * fin.y * InsideFur(v);
+  float alpha = SlabOpacity(fur.coverage, fur.crowding * furShape.z * WayInVolume(v)) * fin.y * InsideFur(v, texel);
 #else
-  float alpha = FinAlpha(fur) * v.fur.z * InsideFur(v);
+  float alpha = FinAlpha(fur) * v.fur.z * InsideFur(v, texel);
 #endif
-  return float4(FurColor(v, fur) * alpha, alpha);
+  return float4(FurColor(v, fur, texel) * alpha, alpha);
 }

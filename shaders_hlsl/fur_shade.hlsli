@@ -138,8 +138,13 @@ float StrandSpread(Fur fur, float2 tiles) {
   return square < kLeastPacked ? 0.0 : saturate(1.0 - sqrt(square)) * (minified * kSpreadShare);
 }
 
-float3 FurAlbedo(FurVarying v, Fur fur) {
-  float3 albedo = baseColorMap.Sample(surfaceSampler, v.uv.xy).rgb;
+// The base colour, and in alpha the length map, by which the fur ends where the strand would be longer than it says.
+float4 ReadSurface(FurVarying v) { return baseColorMap.Sample(surfaceSampler, v.uv.xy); }
+
+float InsideFur(FurVarying v, float4 surfaceTexel) { return v.fur.x * v.fur.y <= surfaceTexel.a ? 1.0 : 0.0; }
+
+float3 FurAlbedo(FurVarying v, Fur fur, float4 surfaceTexel) {
+  float3 albedo = surfaceTexel.rgb;
 #ifndef LOOK_SEED
   albedo *= baseColor.rgb;
 #endif
@@ -151,8 +156,8 @@ float3 FurAlbedo(FurVarying v, Fur fur) {
   return albedo;
 }
 
-float3 FurColor(FurVarying v, Fur fur) {
-  float3 albedo = FurAlbedo(v, fur);
+float3 FurColor(FurVarying v, Fur fur, float4 surfaceTexel) {
+  float3 albedo = FurAlbedo(v, fur, surfaceTexel);
   float3 normal = UnitOr(v.normal, float3(0, 0, 1));
   float3 axis = UnitOr(v.direction, normal);
   float3 tangent = UnitOr(v.tangent.xyz - axis * Dot3(v.tangent.xyz, axis), float3(1, 0, 0));
@@ -167,12 +172,6 @@ float3 FurColor(FurVarying v, Fur fur) {
   float3 strand = UnitOr(FromFrame(StrandIn(fur), tangent, bitangent, axis), axis);
   return FurLight(albedo, strand, normal, v.fromEye, v.fur.x, StrandSpread(fur, v.uv.zw));
 #endif
-}
-
-// The length map at the fragment ends the fur where the strand would be longer than it says.
-float InsideFur(FurVarying v) {
-  float furLength = lengthMap.Sample(surfaceSampler, v.uv.xy).r;
-  return v.fur.x * v.fur.y <= furLength ? 1.0 : 0.0;
 }
 
 #endif

@@ -5,7 +5,8 @@
 FurVarying VSMain(FurVertex v, uint instance : SV_InstanceID) { return PointAt(v, ShellHeight(instance), 1.0); }
 
 float4 PSMain(FurVarying v) : SV_Target {
+  float4 texel = ReadSurface(v);
   Fur fur = ReadFur(v.uv.zw, v.fur.x);
-  float alpha = ShellAlpha(fur, v.fromEye) * InsideFur(v);
-  return float4(FurColor(v, fur) * alpha, alpha);
+  float alpha = ShellAlpha(fur, v.fromEye) * InsideFur(v, texel);
+  return float4(FurColor(v, fur, texel) * alpha, alpha);
 }

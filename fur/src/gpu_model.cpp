@@ -1,6 +1,7 @@
 #include "gpu_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -42,6 +43,9 @@ class Uploader {
   }
 
  private:
+  using Rgb = std::array<double, 3>;
+  static constexpr Rgb kWhite{1, 1, 1};
+
   bool Correct() const { return settings_.look == Look::Correct; }
   bool Sorted() const { return settings_.shellMode == ShellMode::Sorted; }
   bool Sorts() const {
@@ -193,14 +197,26 @@ class Uploader {
   }
 
   // Look seed has no colour factors: they are multiplied into the texels, as the published demo would have painted them.
-  static Image Tinted(Image image, const glm::dvec3& factor) {
+  static Image Tinted(Image image, const Rgb& factor) {
+    if (factor == kWhite) return image;
     for (size_t i = 0; i < image.pixels.size(); ++i)
-      if (i % 4 != 3) image.pixels[i] = uint8_t(std::lround(image.pixels[i] * std::clamp(factor[int(i % 4)], 0.0, 1.0)));
+      if (i % 4 != 3) image.pixels[i] = uint8_t(std::lround(image.pixels[i] * std::clamp(factor[i % 4], 0.0, 1.0)));
     return image;
   }
 
-  // What a preset draws of a furred material instead of its colours.
-  rhi::Ref<rhi::IShaderResourceView> PresetColor(uint32_t index, const Material& m) {
+  // Technique shells reads colour and length with one sample, the length map in alpha.
+  rhi::Ref<rhi::IShaderResourceView> ColorAndLength(const Material& m) {
+    rhi::Ref<rhi::IShaderResourceView>& view = colorsAndLengths_[{m.baseColorTexture.image, m.fur->lengthMap, TexelFactor(m)}];
+    if (view) return view;
+    Image color = Tinted(ColorImage(m), TexelFactor(m));
+    for (size_t i = 3; i < color.pixels.size(); i += 4) color.pixels[i] = 255;
+    view = ImageTexture(LengthInAlpha(color, model_, m), ColorFilter());
+    return view;
+  }
+
+  // What a furred material has for its colours.
+  rhi::Ref<rhi::IShaderResourceView> FurredColor(uint32_t index, const Material& m) {
+    if (settings_.technique == Technique::Shells) return ColorAndLength(m);
     const PresetTraits& traits = Traits();
     if (traits.coatColors) return ImageTexture(PaintCoat(model_, index, settings_.fourCoat), MipFilter::Raw);
     if (traits.lengthInAlpha)
@@ -212,17 +228,16 @@ class Uploader {
     const int32_t image = m.baseColorTexture.image;
     return image < 0 ? Image{"white", 1, 1, {255, 255, 255, 255}} : model_.images[size_t(image)];
   }
-  static glm::dvec3 RawFactor(const Material& m) {
+  static Rgb RawFactor(const Material& m) {
     return {LinearToSrgb(m.baseColor.r), LinearToSrgb(m.baseColor.g), LinearToSrgb(m.baseColor.b)};
   }
+  Rgb TexelFactor(const Material& m) const { return Correct() ? kWhite : RawFactor(m); }
+  MipFilter ColorFilter() const { return Correct() ? MipFilter::Srgb : MipFilter::Raw; }
 
   rhi::Ref<rhi::IShaderResourceView> BaseColor(const Material& m) {
     const int32_t image = m.baseColorTexture.image;
-    const MipFilter filter = Correct() ? MipFilter::Srgb : MipFilter::Raw;
-    const glm::dvec3 raw = RawFactor(m);
-    const bool tinted = !Correct() && raw != glm::dvec3(1);
-    if (image >= 0 && !tinted) return ModelTexture(image, filter);
-    return ImageTexture(tinted ? Tinted(ColorImage(m), raw) : ColorImage(m), filter);
+    if (image >= 0 && TexelFactor(m) == kWhite) return ModelTexture(image, ColorFilter());
+    return ImageTexture(Tinted(ColorImage(m), TexelFactor(m)), ColorFilter());
   }
 
   rhi::Ref<rhi::ISamplerState> Sampler(bool wrapU, bool wrapV) {
@@ -362,8 +377,9 @@ class Uploader {
     const FurVolume thick = p.thickness == 1 ? FurVolume{} : Thickened(thin, p.thickness);
     const FurVolume& volume = p.thickness == 1 ? thin : thick;
     gpu->shells = ShellCount(settings_, p.shells, volume.layers);
-    gpu->lengthMap = fur.lengthMap < 0 ? OneTexel({255, 255, 255, 255}, "full length")
-                                       : ModelTexture(fur.lengthMap, MipFilter::Raw);
+    if (settings_.technique == Technique::Seed)
+      gpu->lengthMap = fur.lengthMap < 0 ? OneTexel({255, 255, 255, 255}, "full length")
+                                         : ModelTexture(fur.lengthMap, MipFilter::Raw);
     // The demo's shells lose coverage with height whatever the volume holds.
     const double falloff = AsShipped() ? 1 : p.heightFalloff;
     const double length = gpu->length = WetLength(FurLength(index, p, gpu->shells), p.wetness);
@@ -395,7 +411,7 @@ class Uploader {
     const Material& m = model_.materials[index];
     const bool furred = m.fur && m.fur->params.enabled;
     GpuMaterial gpu;
-    gpu.baseColor = furred ? PresetColor(index, m) : BaseColor(m);
+    gpu.baseColor = furred ? FurredColor(index, m) : BaseColor(m);
     gpu.normal = m.normalTexture.image < 0 ? OneTexel({128, 128, 255, 255}, "flat normal")
                                            : ModelTexture(m.normalTexture.image, MipFilter::Raw);
     gpu.specular = m.specularTexture.image < 0
@@ -418,6 +434,8 @@ class Uploader {
   const RenderSettings& settings_;
   const Bounds bounds_;
   std::map<std::pair<int32_t, MipFilter>, rhi::Ref<rhi::IShaderResourceView>> modelTextures_;
+  // By the images of colour and length, and the factor in the texels.
+  std::map<std::tuple<int32_t, int32_t, Rgb>, rhi::Ref<rhi::IShaderResourceView>> colorsAndLengths_;
   // However many materials wear it: mips of volumes are the dearest thing made here. By volume, thickness, height falloff.
   std::map<std::tuple<int32_t, double, double>, SharedSlices> furVolumes_;
   std::map<std::pair<int32_t, double>, SharedSlices> furTints_;  // by volume and thickness, whose coverage weighs

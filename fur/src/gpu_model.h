@@ -29,8 +29,10 @@ struct GpuFurMesh {  // of one furred primitive, for technique shells (fur/fur_m
 };
 
 struct GpuMaterial {
-  rhi::Ref<rhi::IShaderResourceView> baseColor, normal, specular;  // never null
-  rhi::Ref<rhi::IShaderResourceView> lengthMap, furVolume;         // null on bald materials
+  // Never null. Technique shells has the length map in baseColor's alpha, 1 without one.
+  rhi::Ref<rhi::IShaderResourceView> baseColor, normal, specular;
+  rhi::Ref<rhi::IShaderResourceView> lengthMap;                    // technique seed, of furred materials
+  rhi::Ref<rhi::IShaderResourceView> furVolume;                    // null on bald materials
   rhi::Ref<rhi::IShaderResourceView> furTint;                      // null but for `tinted`
   rhi::Ref<rhi::IShaderResourceView> shellVolume, shellTint;       // what shells read of both: min(N, N0) slices
   rhi::Ref<rhi::IShaderResourceView> opacityMap, finMap, spots;    // null where the preset has none (presets.h)

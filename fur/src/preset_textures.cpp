@@ -57,6 +57,11 @@ FurVolume WithoutTopSlice(FurVolume volume) {
 Image LengthInAlpha(const Image& color, const Model& model, const Material& m) {
   const LengthMap length(model, m);
   if (!length.image) return color;
+  if (length.image->width == color.width && length.image->height == color.height) {  // as Combine, at once
+    Image out = color;
+    for (size_t i = 0; i < out.pixels.size(); i += 4) out.pixels[i + 3] = length.image->pixels[i];
+    return out;
+  }
   return Combine(color, length, "colour and length",
                  [](const glm::dvec4& c, double l) { return glm::dvec4(glm::dvec3(c), l); });
 }

@@ -1,4 +1,4 @@
-// Textures that a preset needs and a model lacks, made on the CPU: deterministic, of the model's own maps and coat.
+// Textures that a technique or a preset needs and a model lacks, made on the CPU: deterministic, of the model's own maps and coat.
 #pragma once
 
 #include "fur/model.h"
@@ -10,7 +10,8 @@ namespace fur {
 // below it.
 FurVolume WithoutTopSlice(FurVolume);
 
-// Preset nvidia-d3d10: the colour with the length map in its alpha. A material without a length map keeps the alpha.
+// The colour with the length map in its alpha, as large as the larger of both. A material without a length map keeps the
+// alpha.
 Image LengthInAlpha(const Image& color, const Model&, const Material&);
 
 // Preset gs-shells. Grey: how much hair stands above a texel of the tile, 0..1 for the coat's own range; 1 for an even
