@@ -12,7 +12,7 @@
 #include "fur_volume.hlsli"
 
 static const float kMostCoverage = 0.999;
-static const float kVolumeMipBiasSquared = 0.5;  // 4^fur::kVolumeMipBias
+static const float kVolumeMipBiasSquared = 0.25;  // 4^fur::kVolumeMipBias
 
 struct Fur {
   float3 packed;    // tangent

@@ -13,7 +13,7 @@ namespace fur {
 // Mips of technique shells, in levels: a trilinear filter takes the longer side of a pixel's footprint and reads two texels
 // a side; these are nearer to the box over the pixel, with no more flicker (docs/measured.md). fur_shade.hlsli has the
 // volume's too.
-inline constexpr float kSurfaceMipBias = -1, kVolumeMipBias = -0.5f;
+inline constexpr float kSurfaceMipBias = -1, kVolumeMipBias = -1;
 
 struct GpuGeometry {  // of one primitive
   rhi::Ref<rhi::IBuffer> vertices, indices, finIndices;  // finIndices: presets.h; null for technique shells
