@@ -205,7 +205,7 @@ void AddFlags(CLI::App* c, RenderFlags* f) {
       ->check(CLI::IsMember({"vulkan", "gl", "both"}))->capture_default_str();
   c->add_option("--adapter", f->adapter, "Part of an adapter's name (fur info lists them); default: the first");
   c->add_option("--samples", f->samples, "Samples a pixel, 1 or 4")->check(CLI::IsMember({1, 4}))->capture_default_str();
-  c->add_option("--skin-samples", f->skinSamples, "Samples a pixel of the skin alone, 1 or 4; default: as --samples; technique shells")
+  c->add_option("--skin-samples", f->skinSamples, "Samples a pixel of whiskers, eyes and other parts without fur, 1 or 4; default: as --samples; technique shells")
       ->check(CLI::IsMember({1, 4}));
   c->add_option("--supersample", f->supersample, "Frames N times as wide and high, averaged in linear light; technique shells")
       ->check(CLI::Range(1u, 8u))->capture_default_str();

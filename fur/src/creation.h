@@ -48,7 +48,7 @@ class Creation {
     Check(device_.CreateBlendState(desc, &state), "a blend state");
     return state;
   }
-  // Draws that are for the depth alone.
+  // For draws that only leave their depth.
   rhi::Ref<rhi::IBlendState> NoColor() {
     rhi::BlendDesc desc;
     desc.rt[0].writeMask = 0;

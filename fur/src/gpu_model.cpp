@@ -134,6 +134,7 @@ class Uploader {
     g.finIndices = Buffer(edges, rhi::Bind::IndexBuffer, p.name + " edges");
     g.indexCount = uint32_t(p.indices.size());
     g.finIndexCount = uint32_t(edges.size());
+    if (settings_.skinSamples > settings_.samples && !Furred(model_.materials[p.material])) g.pieces = PieceBounds(p);
     return g;
   }
 
@@ -407,9 +408,11 @@ class Uploader {
     gpu->spots = ImageTexture(FurlessSpots(color, model_, m), MipFilter::Raw);
   }
 
+  static bool Furred(const Material& m) { return m.fur && m.fur->params.enabled; }
+
   GpuMaterial MakeMaterial(uint32_t index) {
     const Material& m = model_.materials[index];
-    const bool furred = m.fur && m.fur->params.enabled;
+    const bool furred = Furred(m);
     GpuMaterial gpu;
     gpu.baseColor = furred ? FurredColor(index, m) : BaseColor(m);
     gpu.normal = m.normalTexture.image < 0 ? OneTexel({128, 128, 255, 255}, "flat normal")

@@ -18,6 +18,7 @@ inline constexpr float kSurfaceMipBias = -1, kVolumeMipBias = -1;
 struct GpuGeometry {  // of one primitive
   rhi::Ref<rhi::IBuffer> vertices, indices, finIndices;  // finIndices: presets.h; null for technique shells
   uint32_t indexCount = 0, finIndexCount = 0;
+  std::vector<Bounds> pieces;  // of what hangs together, in the primitive's axes; technique shells, of bare skin
 };
 
 struct GpuFurMesh {  // of one furred primitive, for technique shells (fur/fur_mesh.h); null elsewhere

@@ -1,20 +1,52 @@
 #include "fur/model.h"
 
 #include <limits>
+#include <map>
+#include <numeric>
+
+#include "fur/topology.h"
 
 namespace fur {
 
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Bounds kNothing{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+
+void Add(const glm::dvec3& p, Bounds* bounds) {
+  bounds->min = glm::min(bounds->min, p);
+  bounds->max = glm::max(bounds->max, p);
+}
+
+}  // namespace
+
 Bounds ComputeBounds(const Model& model) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Bounds bounds{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
-  for (const Part& part : model.parts) {
-    for (const Vertex& vertex : model.primitives[part.primitive].vertices) {
-      const glm::dvec3 p(part.transform * glm::dvec4(glm::dvec3(vertex.position), 1.0));
-      bounds.min = glm::min(bounds.min, p);
-      bounds.max = glm::max(bounds.max, p);
-    }
-  }
+  Bounds bounds = kNothing;
+  for (const Part& part : model.parts)
+    for (const Vertex& vertex : model.primitives[part.primitive].vertices)
+      Add(glm::dvec3(part.transform * glm::dvec4(glm::dvec3(vertex.position), 1.0)), &bounds);
   return bounds.min.x > bounds.max.x ? Bounds{} : bounds;  // no vertex at all: a point at the origin
+}
+
+std::vector<Bounds> PieceBounds(const Primitive& primitive) {
+  const Weld weld = WeldByPosition(primitive.vertices);
+  std::vector<uint32_t> parent(weld.representative.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto find = [&](uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  const auto& indices = primitive.indices;
+  for (size_t i = 0; i + 2 < indices.size(); i += 3)
+    for (size_t k = 1; k < 3; ++k) parent[find(weld.welded[indices[i + k]])] = find(weld.welded[indices[i]]);
+  std::map<uint32_t, Bounds> pieces;
+  for (const uint32_t index : indices) {
+    Bounds& bounds = pieces.try_emplace(find(weld.welded[index]), kNothing).first->second;
+    Add(glm::dvec3(primitive.vertices[index].position), &bounds);
+  }
+  std::vector<Bounds> all;
+  for (const auto& [root, bounds] : pieces) all.push_back(bounds);
+  return all;
 }
 
 }  // namespace fur

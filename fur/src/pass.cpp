@@ -130,12 +130,29 @@ BasePass::BasePass(Creation& c, Look look, const rhi::ShaderBlob* furred)
 
 void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
                     const FrameInputs& in) const {
-  DrawParts(context, binding, model, in, Shading::Full);
+  SetStates(context, binding);
+  for (size_t animal = 0; animal < in.placements.size(); ++animal)
+    for (const GpuPart& part : model.parts)
+      DrawPart(context, binding, model, in, animal, part, PixelShader(model.materials[part.material]));
 }
 
-void BasePass::DrawDepth(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
-                         const FrameInputs& in) const {
-  DrawParts(context, binding, model, in, Shading::None);
+void BasePass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model, const FrameInputs& in,
+                    Skin skin, Output output) const {
+  SetStates(context, binding);
+  if (output == Output::Depth) context.OMSetBlendState(noColor_.get());
+  for (size_t animal = 0; animal < in.placements.size(); ++animal)
+    for (const GpuPart& part : model.parts) {
+      const GpuMaterial& material = model.materials[part.material];
+      if ((material.shells == 0) != (skin == Skin::Bare)) continue;
+      DrawPart(context, binding, model, in, animal, part, output == Output::Color ? PixelShader(material) : nullptr);
+    }
+}
+
+void BasePass::SetStates(rhi::IContext& context, const PassBinding& binding) const {
+  context.IASetInputLayout(layout_.get());
+  context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
+  context.OMSetBlendState(binding.opaque.get());
+  context.OMSetDepthStencilState(binding.depthWrite.get());
 }
 
 rhi::IShader* BasePass::PixelShader(const GpuMaterial& material) const {
@@ -143,27 +160,19 @@ rhi::IShader* BasePass::PixelShader(const GpuMaterial& material) const {
   return material.wet ? wet_.get() : furred_.get();
 }
 
-void BasePass::DrawParts(rhi::IContext& context, const PassBinding& binding, const GpuModel& model, const FrameInputs& in,
-                         Shading shading) const {
-  context.IASetInputLayout(layout_.get());
-  context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleList);
-  context.OMSetBlendState(shading == Shading::Full ? binding.opaque.get() : noColor_.get());
-  context.OMSetDepthStencilState(binding.depthWrite.get());
-  for (size_t animal = 0; animal < in.placements.size(); ++animal)
-    for (const GpuPart& part : model.parts) {
-      const GpuMaterial& material = model.materials[part.material];
-      const GpuGeometry& g = model.geometry[part.primitive];
-      context.RSSetState(binding.Cull(in.placements[animal], part,
-                                      material.doubleSided ? rhi::CullMode::None : rhi::CullMode::Back));
-      PassBinding::SetShaders(context, in, vs_.get(), nullptr,
-                              shading == Shading::Full ? PixelShader(material) : nullptr);
-      binding.SetMaterial(context, material);
-      PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.indices.get());
-      binding.SetObject(context, in, animal, part, material);
-      context.DrawIndexed(g.indexCount, 0, 0);
-      ++in.counts->draws;
-      in.counts->triangles += g.indexCount / 3;
-    }
+void BasePass::DrawPart(rhi::IContext& context, const PassBinding& binding, const GpuModel& model, const FrameInputs& in,
+                        size_t animal, const GpuPart& part, rhi::IShader* ps) const {
+  const GpuMaterial& material = model.materials[part.material];
+  const GpuGeometry& g = model.geometry[part.primitive];
+  context.RSSetState(binding.Cull(in.placements[animal], part,
+                                  material.doubleSided ? rhi::CullMode::None : rhi::CullMode::Back));
+  PassBinding::SetShaders(context, in, vs_.get(), nullptr, ps);
+  binding.SetMaterial(context, material);
+  PassBinding::SetVertices(context, g.vertices.get(), sizeof(Vertex), g.indices.get());
+  binding.SetObject(context, in, animal, part, material);
+  context.DrawIndexed(g.indexCount, 0, 0);
+  ++in.counts->draws;
+  in.counts->triangles += g.indexCount / 3;
 }
 
 }  // namespace fur

@@ -42,13 +42,16 @@ class BasePass {
   // `furred`: the pixel shader of furred materials; null: that of all others.
   BasePass(Creation&, Look, const rhi::ShaderBlob* furred = nullptr);
   void Draw(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&) const;
-  // Leaves the colours as they are.
-  void DrawDepth(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&) const;
+  // Skin with fur, or bare skin; in colour, or its depth alone.
+  enum class Skin { Furred, Bare };
+  enum class Output { Color, Depth };
+  void Draw(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, Skin, Output) const;
 
  private:
-  enum class Shading { Full, None };
-  void DrawParts(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, Shading) const;
+  void DrawPart(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, size_t animal, const GpuPart&,
+                rhi::IShader* ps) const;
   rhi::IShader* PixelShader(const GpuMaterial&) const;
+  void SetStates(rhi::IContext&, const PassBinding&) const;
 
   rhi::Ref<rhi::IShader> vs_, ps_, furred_, wet_;
   rhi::Ref<rhi::IInputLayout> layout_;

@@ -65,7 +65,7 @@ class ShellsTechnique final : public ITechnique {
   }
 
   // Nearest first, so that what is hidden is not shaded.
-  void DrawSkin(rhi::IContext& context, const GpuModel& model, const FrameInputs& sorted) const {
+  void DrawSkin(rhi::IContext& context, const GpuModel& model, const FrameInputs& sorted) {
     const std::vector<glm::dmat4> nearestFirst(sorted.placements.rbegin(), sorted.placements.rend());
     FrameInputs in = sorted;
     in.placements = nearestFirst;

@@ -1,31 +1,39 @@
 #include "skin_pass.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fur_shaders/fur_shaders.h"
 
 namespace fur {
 namespace {
 
-// Corners of what a box covers in clip space: x, y of the lower left, x, y of the upper right.
-constexpr glm::vec4 kWholeFrame{-1, -1, 1, 1}, kNothing{1, 1, -1, -1};
+constexpr uint32_t kGrain = 64;  // of the target's sides, so that it is not made anew for every pixel
 
-glm::vec4 Around(const glm::vec4& a, const glm::vec4& b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.z, b.z), std::max(a.w, b.w)};
+PixelBox Around(const PixelBox& a, const PixelBox& b) {
+  if (a.Empty()) return b;
+  if (b.Empty()) return a;
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
 }
 
-glm::vec4 RectangleOf(const Bounds& bounds, const glm::dmat4& objectToClip) {
-  glm::vec4 rectangle = kNothing;
+// Of a box in the picture, with a pixel around it.
+PixelBox Covered(const Bounds& bounds, const glm::dmat4& objectToClip, uint32_t width, uint32_t height) {
+  const glm::dvec2 size(width, height);
+  glm::dvec2 low = size, high(0);
   for (int i = 0; i < 8; ++i) {
     const glm::dvec3 corner(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
                             i & 4 ? bounds.max.z : bounds.min.z);
     const glm::dvec4 p = objectToClip * glm::dvec4(corner, 1);
-    if (!(p.w > 0)) return kWholeFrame;  // beside or behind the eye
-    const glm::vec2 at = glm::clamp(glm::dvec2(p) / p.w, -1.0, 1.0);
-    rectangle = Around(rectangle, {at, at});
+    if (!(p.w > 0) || !std::isfinite(p.x / p.w) || !std::isfinite(p.y / p.w)) return {0, 0, int32_t(width), int32_t(height)};
+    const glm::dvec2 at = glm::dvec2(0.5 + 0.5 * p.x / p.w, 0.5 - 0.5 * p.y / p.w) * size;
+    low = glm::min(low, at), high = glm::max(high, at);
   }
-  return rectangle;
+  low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0), size);
+  high = glm::clamp(glm::ceil(high) + 1.0, glm::dvec2(0), size);
+  return {int32_t(low.x), int32_t(low.y), int32_t(high.x), int32_t(high.y)};
 }
+
+uint32_t Rounded(int32_t side, uint32_t most) { return std::min((uint32_t(side) + kGrain - 1) / kGrain * kGrain, most); }
 
 }  // namespace
 
@@ -35,50 +43,107 @@ Result<Done> CheckSkinSamples(const RenderSettings& s) {
     return Error{ErrorCode::Usage, "technique seed and its presets draw skin and fur with the same samples; leave out "
                                    "--skin-samples"};
   if (s.samples != 1 || s.skinSamples != 4)
-    return Error{ErrorCode::Usage, "the skin can have 4 samples where the fur has 1, and no fewer than the fur"};
+    return Error{ErrorCode::Usage, "bare skin can have 4 samples where the fur has 1, and no fewer than the fur"};
   return Done{};
 }
 
-SkinPass::SkinPass(Creation& c, const RenderSettings& settings) : base_(c, settings.look) {
+std::vector<PixelBox> BoxesOfBarePieces(const GpuModel& model, const FrameInputs& in, uint32_t width, uint32_t height) {
+  std::vector<PixelBox> boxes;
+  const auto add = [&](PixelBox box) {
+    for (size_t i = 0; i < boxes.size();) {
+      if (!boxes[i].Overlaps(box)) {
+        ++i;
+        continue;
+      }
+      box = Around(box, boxes[i]);
+      boxes.erase(boxes.begin() + ptrdiff_t(i));
+      i = 0;  // the larger one may overlap those before
+    }
+    if (!box.Empty()) boxes.push_back(box);
+  };
+  for (const glm::dmat4& placement : in.placements)
+    for (const GpuPart& part : model.parts)
+      for (const Bounds& piece : model.geometry[part.primitive].pieces)
+        add(Covered(piece, in.worldToClip * placement * part.transform, width, height));
+  return boxes;
+}
+
+SkinPass::SkinPass(Creation& c, const RenderSettings& settings)
+    : device_(c.Device()), settings_(settings), base_(c, settings.look) {
   if (settings.skinSamples <= settings.samples) return;
-  c.Check(MakeTargets(c.Device(), settings, settings.skinSamples, &apart_), "the skin's targets");
-  if (apart_.color)
-    c.Check(c.Device().CreateShaderResourceView(apart_.color.get(), nullptr, &apartView_), "the skin's view");
   vs_ = c.Shader(shaders::skin_resolve_VSMain);
   ps_ = c.Shader(shaders::skin_resolve_PSMain);
   raster_ = c.Raster(rhi::CullMode::None, false);
   noDepth_ = c.Depth({.depthEnable = false, .depthWrite = false});
+  over_ = c.Blend(rhi::Blend::One, rhi::Blend::InvSrcAlpha);
 }
 
-void SkinPass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
-                    const FrameInputs& in) const {
-  if (!apart_.color || in.countingShader) return base_.Draw(context, binding, model, in);
-  BindTargets(context, apart_);
-  ClearTargets(context, apart_, in.background);
-  base_.Draw(context, binding, model, in);
+void SkinPass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model, const FrameInputs& in) {
+  std::vector<PixelBox> boxes;
+  if (ps_ && !in.countingShader) boxes = BoxesOfBarePieces(model, in, settings_.width, settings_.height);
+  PixelBox around;
+  for (const PixelBox& box : boxes) around = Around(around, box);
+  if (around.Empty() || !MakeApart(around)) return base_.Draw(context, binding, model, in);
+  base_.Draw(context, binding, model, in, BasePass::Skin::Furred, BasePass::Output::Color);
+  base_.Draw(context, binding, model, in, BasePass::Skin::Bare, BasePass::Output::Depth);
+  DrawApart(context, binding, model, in, around);
   BindTargets(context, *in.targets);
-  Resolve(context, binding, model, in);
-  base_.DrawDepth(context, binding, model, in);
+  Blend(context, binding, in, around, boxes);
+  SetFrameViewport(context, 0, 0);
 }
 
-void SkinPass::Resolve(rhi::IContext& context, const PassBinding& binding, const GpuModel& model,
-                       const FrameInputs& in) const {
-  glm::vec4 rectangle = kNothing;
-  for (const glm::dmat4& placement : in.placements)
-    rectangle = Around(rectangle, RectangleOf(model.bounds, in.worldToClip * placement));
-  if (rectangle.x >= rectangle.z || rectangle.y >= rectangle.w) return;  // no skin in the frame
+void SkinPass::DrawApart(rhi::IContext& context, const PassBinding& binding, const GpuModel& model, const FrameInputs& in,
+                         const PixelBox& around) const {
+  BindTargets(context, apart_);
+  ClearTargets(context, apart_, glm::vec4(0));
+  SetFrameViewport(context, -around.left, -around.top);
+  base_.Draw(context, binding, model, in, BasePass::Skin::Furred, BasePass::Output::Depth);
+  base_.Draw(context, binding, model, in, BasePass::Skin::Bare, BasePass::Output::Color);
+}
+
+void SkinPass::Blend(rhi::IContext& context, const PassBinding& binding, const FrameInputs& in, const PixelBox& around,
+                     const std::vector<PixelBox>& boxes) const {
+  constexpr uint32_t kSlot = 9;  // skin_resolve.hlsl: beyond a material's
   context.IASetInputLayout(nullptr);
   context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleStrip);
   PassBinding::SetShaders(context, in, vs_.get(), nullptr, ps_.get());
   context.RSSetState(raster_.get());
-  context.OMSetBlendState(binding.opaque.get());
+  context.OMSetBlendState(over_.get());
   context.OMSetDepthStencilState(noDepth_.get());
-  binding.SetDraw(context, rectangle);
+  binding.SetDraw(context, {around.left, around.top, 0, 0});
   rhi::IShaderResourceView* view = apartView_.get();
-  context.PSSetShaderResources(0, 1, &view);
-  context.Draw(4, 0);
+  context.PSSetShaderResources(kSlot, 1, &view);
+  for (const PixelBox& box : boxes) {
+    const rhi::Viewport viewport{.x = float(box.left), .y = float(box.top), .width = float(box.right - box.left),
+                                 .height = float(box.bottom - box.top)};
+    context.RSSetViewports(1, &viewport);
+    context.Draw(4, 0);
+    ++in.counts->draws;
+    in.counts->triangles += 2;
+  }
   view = nullptr;
-  context.PSSetShaderResources(0, 1, &view);  // the next frame draws to it
+  context.PSSetShaderResources(kSlot, 1, &view);  // the next frame draws to it
+}
+
+// False where there is no memory for it: the frame then keeps its one sample.
+bool SkinPass::MakeApart(const PixelBox& around) {
+  const uint32_t width = std::max(apartWidth_, Rounded(around.right - around.left, settings_.width)),
+                 height = std::max(apartHeight_, Rounded(around.bottom - around.top, settings_.height));
+  if (width == apartWidth_ && height == apartHeight_) return true;
+  RenderSettings s = settings_;
+  s.width = width, s.height = height;
+  Targets made;
+  rhi::Ref<rhi::IShaderResourceView> view;
+  if (MakeTargets(device_, s, s.skinSamples, &made) != rhi::Status::Ok) return false;
+  if (device_.CreateShaderResourceView(made.color.get(), nullptr, &view) != rhi::Status::Ok) return false;
+  apart_ = std::move(made), apartView_ = std::move(view), apartWidth_ = width, apartHeight_ = height;
+  return true;
+}
+
+void SkinPass::SetFrameViewport(rhi::IContext& context, int32_t left, int32_t top) const {
+  const rhi::Viewport viewport{.x = float(left), .y = float(top), .width = float(settings_.width),
+                               .height = float(settings_.height)};
+  context.RSSetViewports(1, &viewport);
 }
 
 }  // namespace fur

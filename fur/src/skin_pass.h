@@ -1,5 +1,7 @@
-// The skin of a frame of technique shells: where the settings ask for it, with more samples a pixel than the fur.
+// The skin of technique shells; bare pieces, where the settings ask for it, with more samples a pixel than the fur.
 #pragma once
+
+#include <vector>
 
 #include "pass.h"
 #include "targets.h"
@@ -9,25 +11,44 @@ namespace fur {
 // Usage where skinSamples does not go with the other settings.
 Result<Done> CheckSkinSamples(const RenderSettings&);
 
-// Skin has edges where fur has none: whiskers, eyes, bald parts. Fur is transparent and lies over the skin, so it needs no
-// more than the skin's resolved colour and, at one sample, its depth: the skin is drawn twice, the second time for the
-// depth alone, which costs less than four samples of every shell. Resolved by a shader, and only where there can be skin:
-// ResolveSubresource is for whole textures.
+// Pixels of the frame from its top left; empty: no pixel.
+struct PixelBox {
+  int32_t left = 0, top = 0, right = 0, bottom = 0;
+  bool Empty() const { return left >= right || top >= bottom; }
+  bool Overlaps(const PixelBox& o) const {
+    return left < o.right && o.left < right && top < o.bottom && o.top < bottom;
+  }
+};
+// What the bare pieces of all animals can cover, none twice. The whole frame where one is beside or behind the eye.
+std::vector<PixelBox> BoxesOfBarePieces(const GpuModel&, const FrameInputs&, uint32_t width, uint32_t height);
+
+// Bare pieces (of materials without fur: whiskers, eyes, claws) have edges where fur has none. They are drawn with four samples,
+// behind what hides them, into a target as large as the box around them, and blended over the skin by the share of their
+// samples: few pixels, where four samples for all of the frame would cost more than all the fur. To the fur their pixels have
+// one depth: where a piece misses a pixel's centre, fur behind it covers it.
 class SkinPass {
  public:
   SkinPass(Creation&, const RenderSettings&);
-  // Into in.targets.
-  void Draw(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&) const;
+  // Into in.targets, which are bound and stay so.
+  void Draw(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&);
 
  private:
-  void Resolve(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&) const;
+  bool MakeApart(const PixelBox& around);
+  void DrawApart(rhi::IContext&, const PassBinding&, const GpuModel&, const FrameInputs&, const PixelBox& around) const;
+  void Blend(rhi::IContext&, const PassBinding&, const FrameInputs&, const PixelBox& around,
+             const std::vector<PixelBox>&) const;
+  void SetFrameViewport(rhi::IContext&, int32_t left, int32_t top) const;
 
+  rhi::IDevice& device_;
+  RenderSettings settings_;
   BasePass base_;
-  Targets apart_;  // none: the skin is drawn like all else; from here on
+  Targets apart_;  // grows with the box around all bare pieces
+  uint32_t apartWidth_ = 0, apartHeight_ = 0;
   rhi::Ref<rhi::IShaderResourceView> apartView_;
-  rhi::Ref<rhi::IShader> vs_, ps_;
+  rhi::Ref<rhi::IShader> vs_, ps_;  // null where bare skin has no more samples than the rest
   rhi::Ref<rhi::IRasterizerState> raster_;
   rhi::Ref<rhi::IDepthStencilState> noDepth_;
+  rhi::Ref<rhi::IBlendState> over_;
 };
 
 }  // namespace fur

@@ -96,6 +96,8 @@ struct Model {
 
 // Box of all parts' vertices in model space, without fur.
 Bounds ComputeBounds(const Model&);
+// The boxes of what hangs together by equal positions, in the primitive's axes.
+std::vector<Bounds> PieceBounds(const Primitive&);
 
 // What whoever draws a model relies on: every number finite, every index in range, pictures of the size that they say.
 // InputMalformed naming the first that is not, as "primitive 'ear', vertex 12: the normal is not finite". Loaders give

@@ -75,8 +75,8 @@ struct RenderSettings {
   glm::dvec3 background{0};  // linear for Correct, raw for Seed
   Light light;
 
-  // Of the skin alone, 1 or 4, 0: as samples. Smooth whiskers, eyes and bald parts without the cost of smooth fur; with
-  // samples 1, technique shells.
+  // Of bare skin, parts of materials without fur, 1 or 4, 0: as samples. Smooth whiskers and eyes without the cost of four
+  // samples for all of the fur; with samples 1, technique shells.
   uint32_t skinSamples = 0;
 
   // Technique shells only; but fins' threshold and opacity, the comb and the spacing also where a preset has them.
