@@ -10,9 +10,11 @@ namespace {
 
 constexpr uint32_t kGrain = 64;  // of the target's sides, so that it is not made anew for every pixel
 
+// What drawing a triangle of skin once more costs, in pixels that are cleared and blended: two boxes are one where that is
+// cheaper. Measured on llvmpipe, where it matters.
+constexpr double kPixelsOfATriangle = 10;
+
 PixelBox Around(const PixelBox& a, const PixelBox& b) {
-  if (a.Empty()) return b;
-  if (b.Empty()) return a;
   return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
 }
 
@@ -33,6 +35,12 @@ PixelBox Covered(const Bounds& bounds, const glm::dmat4& objectToClip, uint32_t 
   return {int32_t(low.x), int32_t(low.y), int32_t(high.x), int32_t(high.y)};
 }
 
+uint64_t SkinTriangles(const GpuModel& model) {
+  uint64_t triangles = 0;
+  for (const GpuPart& part : model.parts) triangles += model.geometry[part.primitive].indexCount / 3;
+  return triangles;
+}
+
 uint32_t Rounded(int32_t side, uint32_t most) { return std::min((uint32_t(side) + kGrain - 1) / kGrain * kGrain, most); }
 
 }  // namespace
@@ -48,23 +56,27 @@ Result<Done> CheckSkinSamples(const RenderSettings& s) {
 }
 
 std::vector<PixelBox> BoxesOfBarePieces(const GpuModel& model, const FrameInputs& in, uint32_t width, uint32_t height) {
+  const double drawing = kPixelsOfATriangle * double(SkinTriangles(model)) * double(in.placements.size());
   std::vector<PixelBox> boxes;
   const auto add = [&](PixelBox box) {
     for (size_t i = 0; i < boxes.size();) {
-      if (!boxes[i].Overlaps(box)) {
+      const PixelBox both = Around(box, boxes[i]);
+      if (!boxes[i].Overlaps(box) && both.Area() > box.Area() + boxes[i].Area() + drawing) {
         ++i;
         continue;
       }
-      box = Around(box, boxes[i]);
+      box = both;
       boxes.erase(boxes.begin() + ptrdiff_t(i));
-      i = 0;  // the larger one may overlap those before
+      i = 0;  // the larger one may take in those before
     }
-    if (!box.Empty()) boxes.push_back(box);
+    boxes.push_back(box);
   };
   for (const glm::dmat4& placement : in.placements)
     for (const GpuPart& part : model.parts)
-      for (const Bounds& piece : model.geometry[part.primitive].pieces)
-        add(Covered(piece, in.worldToClip * placement * part.transform, width, height));
+      for (const Bounds& piece : model.geometry[part.primitive].pieces) {
+        const PixelBox box = Covered(piece, in.worldToClip * placement * part.transform, width, height);
+        if (!box.Empty()) add(box);
+      }
   return boxes;
 }
 
@@ -81,54 +93,54 @@ SkinPass::SkinPass(Creation& c, const RenderSettings& settings)
 void SkinPass::Draw(rhi::IContext& context, const PassBinding& binding, const GpuModel& model, const FrameInputs& in) {
   std::vector<PixelBox> boxes;
   if (ps_ && !in.countingShader) boxes = BoxesOfBarePieces(model, in, settings_.width, settings_.height);
-  PixelBox around;
-  for (const PixelBox& box : boxes) around = Around(around, box);
-  if (around.Empty() || !MakeApart(around)) return base_.Draw(context, binding, model, in);
+  if (boxes.empty() || !MakeApart(boxes)) return base_.Draw(context, binding, model, in);
   base_.Draw(context, binding, model, in, BasePass::Skin::Furred, BasePass::Output::Color);
   base_.Draw(context, binding, model, in, BasePass::Skin::Bare, BasePass::Output::Depth);
-  DrawApart(context, binding, model, in, around);
-  BindTargets(context, *in.targets);
-  Blend(context, binding, in, around, boxes);
+  for (const PixelBox& box : boxes) {
+    DrawApart(context, binding, model, in, box);
+    Blend(context, binding, in, box);
+  }
   SetFrameViewport(context, 0, 0);
 }
 
 void SkinPass::DrawApart(rhi::IContext& context, const PassBinding& binding, const GpuModel& model, const FrameInputs& in,
-                         const PixelBox& around) const {
+                         const PixelBox& box) const {
   BindTargets(context, apart_);
   ClearTargets(context, apart_, glm::vec4(0));
-  SetFrameViewport(context, -around.left, -around.top);
+  SetFrameViewport(context, -box.left, -box.top);
   base_.Draw(context, binding, model, in, BasePass::Skin::Furred, BasePass::Output::Depth);
   base_.Draw(context, binding, model, in, BasePass::Skin::Bare, BasePass::Output::Color);
 }
 
-void SkinPass::Blend(rhi::IContext& context, const PassBinding& binding, const FrameInputs& in, const PixelBox& around,
-                     const std::vector<PixelBox>& boxes) const {
+void SkinPass::Blend(rhi::IContext& context, const PassBinding& binding, const FrameInputs& in, const PixelBox& box) const {
   constexpr uint32_t kSlot = 9;  // skin_resolve.hlsl: beyond a material's
+  BindTargets(context, *in.targets);
   context.IASetInputLayout(nullptr);
   context.IASetPrimitiveTopology(rhi::PrimitiveTopology::TriangleStrip);
   PassBinding::SetShaders(context, in, vs_.get(), nullptr, ps_.get());
   context.RSSetState(raster_.get());
   context.OMSetBlendState(over_.get());
   context.OMSetDepthStencilState(noDepth_.get());
-  binding.SetDraw(context, {around.left, around.top, 0, 0});
+  binding.SetDraw(context, {box.left, box.top, 0, 0});
   rhi::IShaderResourceView* view = apartView_.get();
   context.PSSetShaderResources(kSlot, 1, &view);
-  for (const PixelBox& box : boxes) {
-    const rhi::Viewport viewport{.x = float(box.left), .y = float(box.top), .width = float(box.right - box.left),
-                                 .height = float(box.bottom - box.top)};
-    context.RSSetViewports(1, &viewport);
-    context.Draw(4, 0);
-    ++in.counts->draws;
-    in.counts->triangles += 2;
-  }
+  const rhi::Viewport viewport{.x = float(box.left), .y = float(box.top), .width = float(box.right - box.left),
+                               .height = float(box.bottom - box.top)};
+  context.RSSetViewports(1, &viewport);
+  context.Draw(4, 0);
+  ++in.counts->draws;
+  in.counts->triangles += 2;
   view = nullptr;
-  context.PSSetShaderResources(kSlot, 1, &view);  // the next frame draws to it
+  context.PSSetShaderResources(kSlot, 1, &view);  // what comes next draws to it
 }
 
 // False where there is no memory for it: the frame then keeps its one sample.
-bool SkinPass::MakeApart(const PixelBox& around) {
-  const uint32_t width = std::max(apartWidth_, Rounded(around.right - around.left, settings_.width)),
-                 height = std::max(apartHeight_, Rounded(around.bottom - around.top, settings_.height));
+bool SkinPass::MakeApart(const std::vector<PixelBox>& boxes) {
+  uint32_t width = apartWidth_, height = apartHeight_;
+  for (const PixelBox& box : boxes) {
+    width = std::max(width, Rounded(box.right - box.left, settings_.width));
+    height = std::max(height, Rounded(box.bottom - box.top, settings_.height));
+  }
   if (width == apartWidth_ && height == apartHeight_) return true;
   RenderSettings s = settings_;
   s.width = width, s.height = height;
