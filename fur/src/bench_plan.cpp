@@ -54,6 +54,13 @@ RenderSettings SeedLook(uint32_t shells) {
   return s;
 }
 
+BenchConfig BareFour(uint32_t shells, bool quick) {
+  BenchConfig config{"seedlook-" + std::to_string(shells) + "-bare4",
+                     std::to_string(shells) + " shells in the seed's look, bare skin with 4 samples", SeedLook(shells), quick};
+  config.settings.skinSamples = 4;
+  return config;
+}
+
 RenderSettings Shells(uint32_t count) {
   RenderSettings s;
   s.shells = count;
@@ -83,6 +90,7 @@ std::vector<BenchConfig> BenchConfigs() {
   for (const uint32_t n : {8u, 16u, 32u})
     configs.push_back(
         {"seedlook-" + std::to_string(n), std::to_string(n) + " shells in the seed's look", SeedLook(n), n < 32});
+  for (const uint32_t n : {8u, 9u}) configs.push_back(BareFour(n, n == 8));
   configs.push_back({"shells", "the default: as many shells as the coat says", RenderSettings{}, true, true});
   for (const uint32_t n : {4u, 8u, 32u, 64u})
     configs.push_back({"shells-" + std::to_string(n), std::to_string(n) + " shells", Shells(n), n <= 32});
@@ -101,6 +109,8 @@ std::vector<BenchConfig> BenchConfigs() {
       Changed("gs", "shells by a geometry shader", [](RenderSettings* s) { s->shellMode = ShellMode::Amplified; }));
   configs.push_back(Changed("sheet", "as sheets", [](RenderSettings* s) { s->semantics = Semantics::Sheet; }));
   configs.push_back(Changed("msaa4", "4 samples a pixel", [](RenderSettings* s) { s->samples = 4; }));
+  configs.push_back(
+      Changed("bare4", "bare skin with 4 samples a pixel", [](RenderSettings* s) { s->skinSamples = 4; }));
   configs.push_back(
       Changed("unorm8", "blended in 8 bits", [](RenderSettings* s) { s->target = TargetFormat::Unorm8; }));
   configs.push_back(

@@ -21,7 +21,7 @@ PixelBox Around(const PixelBox& a, const PixelBox& b) {
 // Of a box in the picture, with a pixel around it.
 PixelBox Covered(const Bounds& bounds, const glm::dmat4& objectToClip, uint32_t width, uint32_t height) {
   const glm::dvec2 size(width, height);
-  glm::dvec2 low = size, high(0);
+  glm::dvec2 low(INFINITY), high(-INFINITY);
   for (int i = 0; i < 8; ++i) {
     const glm::dvec3 corner(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
                             i & 4 ? bounds.max.z : bounds.min.z);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <random>
 
 #include "fur/bake.h"
 #include "fur/coat.h"
@@ -258,6 +259,50 @@ TEST(VolumeMips, NoCoverageAtAllGivesThePlainMean) {
 TEST(VolumeMips, OddSizesLoseNothing) {
   EXPECT_EQ(OneTexel({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255}, 3, 1)[3], 85);
   EXPECT_EQ(OneTexel({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 100}, 1, 5)[3], 20);
+}
+
+// ------------------------------------------------------------------------------------------------- slices for shells
+// Slices of noise, of which level 1 is other noise.
+std::vector<MipChain> Noise(uint32_t slices) {
+  std::mt19937 random(slices);
+  std::vector<MipChain> all;
+  for (uint32_t i = 0; i < slices; ++i) {
+    MipChain& chain = all.emplace_back();
+    for (const size_t texels : {4096u, 1024u})
+      for (auto& level = chain.emplace_back(); level.size() < texels * 4;) level.push_back(uint8_t(random()));
+  }
+  return all;
+}
+
+// Height (i + 1/2) / N is a slice's middle where N0 / N is odd.
+TEST(SlicesAtShells, AreTheSlicesThatShellsLieOn) {
+  const std::vector<MipChain> slices = Noise(9), three = SlicesAtShells(slices, 3), one = SlicesAtShells(slices, 1);
+  ASSERT_EQ(three.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(three[i], slices[3 * i + 1]) << i;
+  EXPECT_EQ(one, std::vector<MipChain>{slices[4]});
+}
+
+// The formula of docs/accuracy.md in double, level by level; and what is rounded is right in the mean.
+TEST(SlicesAtShells, AreLinearBetweenSlices) {
+  const std::vector<MipChain> slices = Noise(16);
+  for (const uint32_t n : {2u, 5u, 7u, 8u, 15u}) {
+    const std::vector<MipChain> own = SlicesAtShells(slices, n);
+    ASSERT_EQ(own.size(), n);
+    double sum = 0, values = 0;
+    for (uint32_t i = 0; i < n; ++i) {
+      const double z = (i + 0.5) / n * 16 - 0.5;
+      const auto below = size_t(std::floor(z));
+      for (size_t level = 0; level < 2; ++level)
+        for (size_t b = 0; b < own[i][level].size(); ++b) {
+          const int lower = slices[below][level][b], upper = slices[below + 1][level][b];
+          const double exact = lower + (upper - lower) * (z - double(below));
+          ASSERT_NEAR(own[i][level][b], exact, 0.5 + 1e-9) << n << " shells, shell " << i;
+          sum += own[i][level][b] - exact;
+          ++values;
+        }
+    }
+    EXPECT_NEAR(sum / values, 0, 0.01) << n << " shells: 0.25 with halves rounded up";
+  }
 }
 
 }  // namespace

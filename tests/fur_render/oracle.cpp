@@ -23,6 +23,12 @@ glm::dvec3 Albedo(const SquareScene& s) {
   return s.look == Look::Seed ? raw : glm::dvec3(Decode(raw.x), Decode(raw.y), Decode(raw.z));
 }
 
+// Linear between two slices, at slice z; fewer shells than slices have slices of their own, of 8 bits.
+double AsKept(const SquareScene& s, int below, int above, double z) {
+  const double byte = below + (above - below) * (z - std::floor(z));
+  return s.shells < s.coat.slices.size() ? std::nearbyint(byte) : byte;
+}
+
 // The strands' own factor, linear between slices; the emptied one is as the one below it.
 glm::dvec3 OwnColor(const SquareScene& s, double height) {
   const std::vector<Texel>& t = s.coat.tints;
@@ -30,7 +36,8 @@ glm::dvec3 OwnColor(const SquareScene& s, double height) {
   const double z = std::clamp(height * double(t.size()) - 0.5, 0.0, double(t.size() - 1));
   const size_t last = t.size() - 2, below = std::min(size_t(z), last), above = std::min(size_t(z) + 1, last);
   glm::dvec3 own;
-  for (int c = 0; c < 3; ++c) own[c] = glm::mix(t[below][size_t(c)] / 128.0, t[above][size_t(c)] / 128.0, z - double(size_t(z)));
+  for (int c = 0; c < 3; ++c)
+    own[c] = AsKept(s, t[below][size_t(c)], t[above][size_t(c)], z) / 128.0;
   return glm::mix(glm::dvec3(1), own, s.groom.tint);
 }
 
@@ -191,10 +198,12 @@ glm::dvec4 MidpointShell(const SquareScene& s, const glm::dvec3& ray, uint32_t s
   const double h = (shell + 0.5) / s.shells, z = std::clamp(h * slices - 0.5, 0.0, slices - 1);
   const auto below = size_t(z), above = std::min(below + 1, s.coat.slices.size() - 1);
   glm::dvec4 texel(0);
-  for (const auto& [slice, weight] : {std::pair{below, 1 - (z - double(below))}, {above, z - double(below)}}) {
-    const Texel& t = s.coat.slices[slice];
-    const bool emptied = s.look == Look::Correct && slice == s.coat.slices.size() - 1;
-    texel += glm::dvec4(t[0], t[1], t[2], emptied ? 0 : t[3]) / 255.0 * weight;
+  for (size_t c = 0; c < 4; ++c) {
+    const auto byte = [&](size_t slice) {
+      const bool emptied = s.look == Look::Correct && c == 3 && slice == s.coat.slices.size() - 1;
+      return emptied ? 0 : int(s.coat.slices[slice][c]);
+    };
+    texel[int(c)] = AsKept(s, byte(below), byte(above), z) / 255.0;
   }
   const double falloff = s.look == Look::Seed ? 1 : 0;
   const Clumped clump = ClumpAt(s, ray, h);
