@@ -1,7 +1,7 @@
 // The pixel of shells and fins: coverage and colour of the fur at a place and a height, premultiplied.
 // Variants: LOOK_SEED (published lighting), VOLUME (opacity by path length), BETWEEN_SLICES (of the whole volume, linear
-// between two slices; without it each shell has a slice of its own), GROOM (clumps, density, colours: fur_groom.hlsli), TINT (the strands
-// have colours of their own; look correct).
+// between two slices; without it each shell has a slice of its own), GROOM (clumps, density, colours: fur_groom.hlsli), TINT
+// (the strands have colours of their own; look correct).
 #ifndef FUR_SHADE_HLSLI
 #define FUR_SHADE_HLSLI
 #ifdef GROOM

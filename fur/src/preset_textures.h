@@ -1,4 +1,5 @@
-// Textures that a technique or a preset needs and a model lacks, made on the CPU: deterministic, of the model's own maps and coat.
+// Textures that a technique or a preset needs and a model lacks, made on the CPU: deterministic, of the model's own maps
+// and coat.
 #pragma once
 
 #include "fur/model.h"

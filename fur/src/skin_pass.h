@@ -20,14 +20,14 @@ struct PixelBox {
     return left < o.right && o.left < right && top < o.bottom && o.top < bottom;
   }
 };
-// What the bare pieces of all animals can cover, no pixel twice; few boxes, since all skin is drawn again for each. The whole frame
-// where a piece is beside or behind the eye.
+// What the bare pieces of all animals can cover, no pixel twice; few boxes, since all skin is drawn again for each. The whole
+// frame where a piece is beside or behind the eye.
 std::vector<PixelBox> BoxesOfBarePieces(const GpuModel&, const FrameInputs&, uint32_t width, uint32_t height);
 
-// Bare pieces (of materials without fur: whiskers, eyes, claws) have edges where fur has none. They are drawn again with four samples,
-// behind what hides them, into a target as large as the largest box that holds some of them, and blended over the skin by
-// the share of their samples: few pixels, where four samples for all of the frame would cost more than all the fur. To the fur
-// their pixels have one depth: where a piece misses a pixel's centre, fur behind it covers it.
+// Bare pieces (of materials without fur: whiskers, eyes, claws) have edges where fur has none. They are drawn again with four
+// samples, behind what hides them, into a target as large as the largest box that holds some of them, and blended over the
+// skin by the share of their samples: few pixels, where four samples for all of the frame would cost more than all the fur.
+// To the fur their pixels have one depth: where a piece misses a pixel's centre, fur behind it covers it.
 class SkinPass {
  public:
   SkinPass(Creation&, const RenderSettings&);

@@ -31,6 +31,7 @@ TEST(BenchPlan, NamesAreUniqueAndOneIsTheDefault) {
     const RenderSettings plain, &s = c.settings;
     EXPECT_EQ(c.isDefault, s.technique == plain.technique && s.look == plain.look && s.semantics == plain.semantics &&
                                s.shells == 0 && s.drawFins && s.backFaces && s.sortAnimals && s.samples == 1 &&
+                               s.skinSamples == 0 &&
                                s.target == TargetFormat::Auto && s.finMode == FinMode::Auto &&
                                s.shellMode == ShellMode::Sorted)
         << c.name << ": what differs in nothing is the default";

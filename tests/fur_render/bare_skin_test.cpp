@@ -82,9 +82,11 @@ Model FurredAndBare(double z) {
 // Behind the furred skin it is hidden in all samples; in front its inside and all else are as before, its edge is between.
 TEST_P(BareSkin, LiesBetweenSkinAndFurByItsDepth) {
   const Camera camera = CameraAt(3, 0, 0);
-  const Model behind = FurredAndBare(-0.2), before = FurredAndBare(0.5), plain = FurredSquare(1, {200, 150, 100, 255}, UniformCoat(16, 60));
+  const Model behind = FurredAndBare(-0.2), before = FurredAndBare(0.5),
+              plain = FurredSquare(1, {200, 150, 100, 255}, UniformCoat(16, 60));
   EXPECT_EQ(Largest(Pixels(*device_, behind, Settings(1, 4), camera), Pixels(*device_, plain, Settings(1, 0), camera)), 0);
-  const FloatImage rough = Pixels(*device_, before, Settings(1, 0), camera), smooth = Pixels(*device_, before, Settings(1, 4), camera),
+  const FloatImage rough = Pixels(*device_, before, Settings(1, 0), camera),
+                   smooth = Pixels(*device_, before, Settings(1, 4), camera),
                    four = Pixels(*device_, before, Settings(4, 0), camera);
   size_t changed = 0;
   for (size_t i = 0; i < rough.pixels.size(); ++i) {
