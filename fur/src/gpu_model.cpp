@@ -268,22 +268,27 @@ class Uploader {
     std::map<uint32_t, rhi::Ref<rhi::IShaderResourceView>> views;
   };
 
+  // All slices, or fewer, as `fewer` makes them of all.
+  template <class Fewer>
   rhi::Ref<rhi::IShaderResourceView> UploadSlices(SharedSlices* shared, const FurVolume& volume, uint32_t count,
-                                                  const std::string& name) {
+                                                  const std::string& name, Fewer fewer) {
     rhi::Ref<rhi::IShaderResourceView>& view = shared->views[count];
     if (!view)
-      view = Texture(count == volume.layers ? shared->slices : SlicesAtShells(shared->slices, count), volume.width,
-                     volume.height, true, rhi::Format::RGBA8_UNorm, name);
+      view = Texture(count < volume.layers ? fewer(shared->slices) : shared->slices, volume.width, volume.height, true,
+                     rhi::Format::RGBA8_UNorm, name);
     return view;
   }
 
-  // Fewer shells than slices read slices of their own, one where they would read two; fins read all heights.
+  // Fewer shells than slices have slices of their own, one to read instead of two; fins read all heights.
   void AddVolume(int32_t index, const FurVolume& volume, const FurParams& p, double falloff, GpuMaterial* gpu) {
     SharedSlices& shared = furVolumes_[{index, p.thickness, falloff}];
     if (shared.slices.empty()) shared.slices = VolumeMips(volume, falloff);
-    gpu->furVolume = UploadSlices(&shared, volume, volume.layers, volume.name);
-    const bool own = settings_.technique == Technique::Shells && gpu->shells < volume.layers;
-    gpu->shellVolume = own ? UploadSlices(&shared, volume, gpu->shells, volume.name) : gpu->furVolume;
+    const auto upload = [&](uint32_t count) {
+      return UploadSlices(&shared, volume, count, volume.name,
+                          [&](const auto& slices) { return VolumeAtShells(slices, count, falloff); });
+    };
+    gpu->furVolume = upload(volume.layers);
+    gpu->shellVolume = settings_.technique == Technique::Shells ? upload(std::min(gpu->shells, volume.layers)) : gpu->furVolume;
   }
 
   // Strands' own colours belong to look correct: no published system has them.
@@ -292,9 +297,12 @@ class Uploader {
     if (!gpu->tinted) return;
     SharedSlices& shared = furTints_[{index, p.thickness}];
     if (shared.slices.empty()) shared.slices = MakeTintMips(WithoutTopSlice(volume));
-    const std::string name = volume.name + " tint";
-    gpu->furTint = UploadSlices(&shared, volume, volume.layers, name);
-    gpu->shellTint = UploadSlices(&shared, volume, std::min(gpu->shells, volume.layers), name);
+    const auto upload = [&](uint32_t count) {
+      return UploadSlices(&shared, volume, count, volume.name + " tint",
+                          [&](const auto& slices) { return SlicesAtShells(slices, count); });
+    };
+    gpu->furTint = upload(volume.layers);
+    gpu->shellTint = upload(std::min(gpu->shells, volume.layers));
   }
 
   MaterialConstants SurfaceConstants(const Material& m) const {

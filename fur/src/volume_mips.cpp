@@ -137,19 +137,55 @@ std::vector<MipChain> MakeTintMips(const FurVolume& volume) {
   return slices;
 }
 
+namespace {
+
+// Slab i of `shells`, in slices of which slice j has its middle at j.
+struct Slab {
+  Slab(uint32_t i, uint32_t shells, size_t slices)
+      : first(double(i) / shells * double(slices) - 0.5), size(double(slices) / shells), last(double(slices) - 1) {}
+  double At(double share) const { return std::clamp(first + share * size, 0.0, last); }
+  double first, size, last;
+};
+
+double Between(const std::vector<MipChain>& slices, double z, size_t level, size_t byte) {
+  const auto below = size_t(z);
+  const double lower = slices[below][level][byte], upper = slices[std::min(below + 1, slices.size() - 1)][level][byte];
+  return lower + (upper - lower) * (z - double(below));
+}
+
+constexpr double kMostCoverage = 0.999;  // fur_shade.hlsli
+
+}  // namespace
+
 std::vector<MipChain> SlicesAtShells(const std::vector<MipChain>& slices, uint32_t shells) {
-  const double last = double(slices.size()) - 1;
   std::vector<MipChain> out;
   for (uint32_t i = 0; i < shells; ++i) {
-    const double slice = std::clamp((i + 0.5) / shells * double(slices.size()) - 0.5, 0.0, last);
-    const auto below = size_t(slice);
-    const MipChain &lower = slices[below], &upper = slices[std::min(below + 1, slices.size() - 1)];
-    MipChain& levels = out.emplace_back(lower);
+    const double middle = Slab(i, shells, slices.size()).At(0.5);
+    MipChain& levels = out.emplace_back(slices[0]);
     for (size_t level = 0; level < levels.size(); ++level)
       for (size_t b = 0; b < levels[level].size(); ++b)
         // Halves to even: at N0 / N = 2 every second value is one, and rounding all of them up would thicken the fur.
-        levels[level][b] =
-            uint8_t(std::nearbyint(lower[level][b] + (upper[level][b] - lower[level][b]) * (slice - double(below))));
+        levels[level][b] = uint8_t(std::nearbyint(Between(slices, middle, level, b)));
+  }
+  return out;
+}
+
+std::vector<MipChain> VolumeAtShells(const std::vector<MipChain>& slices, uint32_t shells, double heightFalloff) {
+  const auto kept = [&](double z) { return 1 - heightFalloff * z / double(slices.size()); };
+  std::vector<MipChain> out = SlicesAtShells(slices, shells);
+  for (uint32_t i = 0; i < shells; ++i) {
+    const Slab slab(i, shells, slices.size());
+    const int steps = kStepsOfASlice * int(std::ceil(slab.size));
+    for (size_t level = 0; level < out[i].size(); ++level)
+      for (size_t b = 3; b < out[i][level].size(); b += 4) {
+        double depth = 0;
+        for (int k = 0; k < steps; ++k) {
+          const double z = slab.At((k + 0.5) / steps);
+          depth -= std::log1p(-std::min(Between(slices, z, level, b) / 255 * kept(z), kMostCoverage));
+        }
+        const double coverage = -std::expm1(-depth / steps) / kept(slab.At(0.5));
+        out[i][level][b] = uint8_t(std::nearbyint(std::min(coverage, 1.0) * 255));
+      }
   }
   return out;
 }

@@ -19,8 +19,14 @@ std::vector<MipChain> MakeVolumeMips(const FurVolume&, double heightFalloff);
 // without fur; the plain mean where there is none. `volume.tint` is not empty.
 std::vector<MipChain> MakeTintMips(const FurVolume& volume);
 
-// What `shells` shells, fewer than slices, read at their heights (i + 1/2) / N: for each shell its levels, linear between the
+// What `shells` shells, fewer than slices, find at their heights (i + 1/2) / N: for each shell its levels, linear between the
 // two slices next to it as the shader would read them (fur_shade.hlsli), rounded to 8 bits once more.
 std::vector<MipChain> SlicesAtShells(const std::vector<MipChain>& slices, uint32_t shells);
+
+// The same for a volume, whose coverage a shell has of its whole slab: with c(z) = min(a(z) (1 - heightFalloff z / N0), .999)
+// between slices, 1 - c_i = exp(mean over the slab of ln(1 - c(z))), by the midpoint rule in kStepsOfASlice steps for each
+// slice, rounded up. Stored is a_i, of which the shader takes the falloff at the slab's middle off, at most 1.
+std::vector<MipChain> VolumeAtShells(const std::vector<MipChain>& slices, uint32_t shells, double heightFalloff);
+inline constexpr int kStepsOfASlice = 16;
 
 }  // namespace fur

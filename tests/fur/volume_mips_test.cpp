@@ -305,5 +305,37 @@ TEST(SlicesAtShells, AreLinearBetweenSlices) {
   }
 }
 
+// One slice of coverage among empty ones, within one slab: the integral of ln(1 - a t) over 0 <= t <= 1 is
+// -((1 - a) ln(1 - a) + a) / a, once on each side of the slice.
+TEST(VolumeAtShells, HoldTheSlabsWholeDepth) {
+  for (const uint32_t shells : {1u, 2u, 4u})
+    for (const uint8_t coverage : std::initializer_list<uint8_t>{20, 128, 250}) {
+      std::vector<MipChain> slices(16, MipChain{{10, 20, 30, 0}});
+      const uint32_t slab = shells / 2, middle = slab * 16 / shells + 8 / shells;
+      slices[middle][0][3] = coverage;
+      const double a = coverage / 255.0, depth = 2 * ((1 - a) * std::log(1 - a) + a) / a;
+      const std::vector<MipChain> own = VolumeAtShells(slices, shells, 0);
+      EXPECT_NEAR(own[slab][0][3], 255 * -std::expm1(-depth * shells / 16), 0.6) << shells << " shells, " << int(coverage);
+      EXPECT_EQ(own[slab][0][0], 10);
+    }
+}
+
+// Even fur stays as it is; and of fur that thins towards the tip the shader, which takes the falloff off, gets the slab's mean.
+TEST(VolumeAtShells, EvenFurStays) {
+  for (const uint8_t coverage : std::initializer_list<uint8_t>{0, 1, 77, 254})
+    for (const uint32_t shells : {1u, 3u, 7u, 8u})
+      for (const MipChain& own : VolumeAtShells(std::vector<MipChain>(16, MipChain{{1, 2, 3, coverage}}), shells, 0))
+        EXPECT_EQ(own, (MipChain{{1, 2, 3, coverage}})) << shells;
+  const std::vector<MipChain> own = VolumeAtShells(std::vector<MipChain>(16, MipChain{{1, 2, 3, 60}}), 4, 1);
+  for (uint32_t i = 0; i < 4; ++i) {
+    double depth = 0;
+    for (int k = 0; k < 4000; ++k) {
+      const double z = std::clamp(i * 4 - 0.5 + (k + 0.5) / 1000, 0.0, 15.0);
+      depth -= std::log(1 - 60 / 255.0 * (1 - z / 16));
+    }
+    EXPECT_NEAR(own[i][0][3] / 255.0 * (1 - (i * 4 + 1.5) / 16), -std::expm1(-depth / 4000), 0.6 / 255) << i;
+  }
+}
+
 }  // namespace
 }  // namespace fur::test

@@ -29,6 +29,29 @@ double AsKept(const SquareScene& s, int below, int above, double z) {
   return s.shells < s.coat.slices.size() ? std::nearbyint(byte) : byte;
 }
 
+// Between slices; the top one is emptied.
+double CoverageAt(const SquareScene& s, double z) {
+  const auto at = [&](size_t slice) {
+    const bool emptied = s.look == Look::Correct && slice == s.coat.slices.size() - 1;
+    return emptied ? 0 : s.coat.slices[slice][3] / 255.0;
+  };
+  const auto below = size_t(z);
+  return at(below) + (at(std::min(below + 1, s.coat.slices.size() - 1)) - at(below)) * (z - double(below));
+}
+
+// Of fewer shells than slices: that of the slab, by docs/accuracy.md, in the same steps since the bytes are to be the same.
+double KeptCoverage(const SquareScene& s, uint32_t shell, double falloff) {
+  const auto slices = double(s.coat.slices.size());
+  const double size = slices / s.shells, steps = 16 * std::ceil(size);
+  const auto place = [&](double share) { return std::clamp((shell + share) * size - 0.5, 0.0, slices - 1); };
+  double depth = 0;
+  for (double k = 0; k < steps; ++k) {
+    const double z = place((k + 0.5) / steps);
+    depth -= std::log(1 - std::min(CoverageAt(s, z) * (1 - falloff * z / slices), 0.999)) / steps;
+  }
+  return std::nearbyint(std::min((1 - std::exp(-depth)) / (1 - falloff * place(0.5) / slices), 1.0) * 255) / 255.0;
+}
+
 // The strands' own factor, linear between slices; the emptied one is as the one below it.
 glm::dvec3 OwnColor(const SquareScene& s, double height) {
   const std::vector<Texel>& t = s.coat.tints;
@@ -198,14 +221,9 @@ glm::dvec4 MidpointShell(const SquareScene& s, const glm::dvec3& ray, uint32_t s
   const double h = (shell + 0.5) / s.shells, z = std::clamp(h * slices - 0.5, 0.0, slices - 1);
   const auto below = size_t(z), above = std::min(below + 1, s.coat.slices.size() - 1);
   glm::dvec4 texel(0);
-  for (size_t c = 0; c < 4; ++c) {
-    const auto byte = [&](size_t slice) {
-      const bool emptied = s.look == Look::Correct && c == 3 && slice == s.coat.slices.size() - 1;
-      return emptied ? 0 : int(s.coat.slices[slice][c]);
-    };
-    texel[int(c)] = AsKept(s, byte(below), byte(above), z) / 255.0;
-  }
+  for (size_t c = 0; c < 4; ++c) texel[int(c)] = AsKept(s, s.coat.slices[below][c], s.coat.slices[above][c], z) / 255.0;
   const double falloff = s.look == Look::Seed ? 1 : 0;
+  texel.a = s.shells < s.coat.slices.size() ? KeptCoverage(s, shell, falloff) : CoverageAt(s, z);
   const Clumped clump = ClumpAt(s, ray, h);
   const double coverage = std::min(texel.w * (1 - falloff * z / slices), 0.999) * clump.inside;
   double exponent = slices / s.shells * s.groom.density * clump.spread * clump.spread;
