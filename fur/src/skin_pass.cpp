@@ -51,7 +51,7 @@ Result<Done> CheckSkinSamples(const RenderSettings& s) {
     return Error{ErrorCode::Usage, "technique seed and its presets draw skin and fur with the same samples; leave out "
                                    "--skin-samples"};
   if (s.samples != 1 || s.skinSamples != 4)
-    return Error{ErrorCode::Usage, "bare skin can have 4 samples where the fur has 1, and no fewer than the fur"};
+    return Error{ErrorCode::Usage, "bare skin (--skin-samples) can have 4 samples where the fur (--samples) has 1, and no fewer"};
   return Done{};
 }
 

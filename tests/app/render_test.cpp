@@ -184,6 +184,31 @@ TEST(Render, SupersamplingIsTheMeanOfALargerFrame) {
   EXPECT_NE(refused.err.find("--supersample"), std::string::npos) << refused.err;
 }
 
+TEST(Render, SkinSamples) {
+  const Folder folder;
+  const auto stats = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> flags{"render", "--size",                  "96x72",   "--repeat",       "0",
+                                   "-o",     folder / (name + ".png"), "--stats", folder / "s.json"};
+    flags.insert(flags.end(), more.begin(), more.end());
+    ExpectSuccess(RunFur(flags));
+    return ReadJson(folder / "s.json");
+  };
+  EXPECT_EQ(stats("one", {})["skin_samples"], 1);
+  EXPECT_EQ(stats("bare", {"--skin-samples", "4"})["skin_samples"], 4);
+  EXPECT_EQ(stats("all", {"--samples", "4"})["skin_samples"], 4);
+  EXPECT_NE(ReadText(folder / "one.png"), ReadText(folder / "bare.png"));
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--technique", "seed", "--skin-samples", "4"},
+                                               {"--samples", "4", "--skin-samples", "1"},
+                                               {"--skin-samples", "2"}}) {
+    std::vector<std::string> flags{"render", "-o", folder / "x.png"};
+    flags.insert(flags.end(), more.begin(), more.end());
+    const Outcome refused = RunFur(flags);
+    EXPECT_EQ(refused.exitCode, 2) << refused.err;
+    EXPECT_NE(refused.err.find("skin-samples"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+  }
+}
+
 TEST(Stats, CountsFollowTheFlags) {
   const auto stats = [](std::vector<std::string> flags) {
     const Folder folder;

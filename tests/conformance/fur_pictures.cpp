@@ -269,6 +269,18 @@ TEST_P(FurSceneTest, MoreShellsThanSlices) {
   ExpectAlike(vulkan, gl, Animal(), CloseShot(Animal(), settings));
 }
 
+// Eyes with four samples: another target, read sample by sample.
+TEST_P(FurSceneTest, BareSkinWithFourSamples) {
+  RenderSettings settings = kSmall;
+  FurShot shot{.settings = settings, .camera = {.eye = {-2, 1.2, -3}}, .placements = PlaceAnimals(5, 0.25)};
+  const fur::Image rough = Draw(vulkan, Animal(), shot);
+  shot.settings.skinSamples = 4;
+  fur::Image smooth;
+  ExpectAlike(vulkan, gl, Animal(), shot, &smooth);
+  EXPECT_GT(test::DifferingPixels(rough, smooth), 5u) << "no edge of bare skin in the picture";
+  ExpectAlike(vulkan, gl, Animal(), CloseShot(Animal(), shot.settings));
+}
+
 // The frame before it is brought to 8 bits, as floats, and the means of 2 x 2 of its pixels.
 TEST_P(FurSceneTest, SupersampledFloats) {
   RenderSettings settings{.width = 2 * kFurWidth, .height = 2 * kFurHeight, .target = TargetFormat::Float32};
