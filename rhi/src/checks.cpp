@@ -57,6 +57,8 @@ Status CheckTextureUse(const TextureDesc& d, const SubresourceData* init, const 
     return Invalid(log, d.name, "a Tex2DMS cannot have Bind::UnorderedAccess");
   if (d.bind & (Bind::VertexBuffer | Bind::IndexBuffer | Bind::ConstantBuffer | Bind::IndirectArgs))
     return Invalid(log, d.name, "a texture cannot have Bind flags of buffers");
+  if ((d.bind & Bind::UnorderedAccess) && depth)
+    return Refuse(log, Status::Unsupported, MsgCode::CapMissing, d.name, "a depth format has no unordered access");
   if ((d.bind & Bind::UnorderedAccess) && format.sRGB)
     return Refuse(log, Status::Unsupported, MsgCode::CapMissing, d.name,
                   "an _sRGB format has no unordered access; make the texture as its UNorm twin and view it as _sRGB");

@@ -53,7 +53,7 @@ void SetLimits(Caps* caps) {
   caps->maxTexture2D = GetUint(GL_MAX_TEXTURE_SIZE);
   caps->maxTexture3D = GetUint(GL_MAX_3D_TEXTURE_SIZE);
   caps->maxArrayLayers = GetUint(GL_MAX_ARRAY_TEXTURE_LAYERS);
-  caps->maxColorSamples = MaxSamples();
+  caps->maxColorSamples = std::min(MaxSamples(), kMaxSamples);
   caps->maxGSOutputVertices = GetUint(GL_MAX_GEOMETRY_OUTPUT_VERTICES);
   caps->maxGSOutputComponents = GetUint(GL_MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS);
   caps->constantBufferAlignment = std::max(16u, GetUint(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));

@@ -96,9 +96,9 @@ bool Core::Enter() {
   ForgetThread();
   if (!egl.MakeCurrent()) {
     if (egl.WasLost()) return Lose("EGL has lost the context");
-    log.Report(
-        Severity::Error, MsgCode::DeviceLost, "",
-        "the GL context cannot be made current: it is still current on another thread; call WaitIdle there first");
+    log.Report(Severity::Error, MsgCode::DeviceLost, "", "the GL context cannot be made current: %s (EGL error 0x%x)",
+               egl.IsElsewhere() ? "it is still current on another thread; call WaitIdle there first" : "the driver refuses",
+               unsigned(egl.Error()));
     return false;
   }
   threadOwner = weak_from_this();

@@ -108,7 +108,7 @@ Device::~Device() {
 }
 
 uint32_t Device::CheckMultisample(Format format, uint32_t samples) const {
-  return core_->Enter() && samples > 0 && SupportsSamples(format, samples) ? 1 : 0;
+  return core_->Enter() && samples > 0 && samples <= GetCaps().maxColorSamples && SupportsSamples(format, samples) ? 1 : 0;
 }
 
 // ------------------------------------------------------------------------------------------------------ the adapters

@@ -184,12 +184,16 @@ void EglContext::Destroy() {
 
 bool EglContext::MakeCurrent() {
   eglBindAPI(EGL_OPENGL_API);  // a state of each thread
-  return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+  if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE) return true;
+  error_ = eglGetError();
+  return false;
 }
 
 void EglContext::Release() { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
-bool EglContext::WasLost() const { return eglGetError() == EGL_CONTEXT_LOST; }
+bool EglContext::WasLost() const { return error_ == EGL_CONTEXT_LOST; }
+
+bool EglContext::IsElsewhere() const { return error_ == EGL_BAD_ACCESS; }
 
 bool EglContext::IsCurrent() const { return eglGetCurrentContext() == context_; }
 

@@ -37,7 +37,9 @@ class EglContext {
   bool MakeCurrent();
   void Release();  // no context is current on this thread afterwards
   bool IsCurrent() const;
-  bool WasLost() const;  // why MakeCurrent, just called, gave false
+  bool WasLost() const;      // why MakeCurrent, just called, gave false
+  bool IsElsewhere() const;  // it is current on another thread
+  int Error() const { return error_; }
 
   // The picture of an X11 window, an EGLSurface. Null, with the reason in *why.
   void* CreateWindowSurface(void* window, std::string* why);
@@ -58,6 +60,7 @@ class EglContext {
   void* config_ = nullptr;   // EGLConfig; null: the context goes with surfaces of any
   bool terminate_ = false;   // the display is counted and ends with its last context
   bool robust_ = false;
+  int error_ = 0;  // of the last MakeCurrent that failed
 };
 
 }  // namespace rhi_gl

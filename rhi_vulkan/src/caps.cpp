@@ -59,7 +59,7 @@ void FillLimits(Caps& c, const VkPhysicalDeviceLimits& l) {
   c.maxTexture2D = l.maxImageDimension2D;
   c.maxTexture3D = l.maxImageDimension3D;
   c.maxArrayLayers = l.maxImageArrayLayers;
-  c.maxColorSamples = HighestCount(l.framebufferColorSampleCounts & l.framebufferDepthSampleCounts);
+  c.maxColorSamples = std::min(HighestCount(l.framebufferColorSampleCounts & l.framebufferDepthSampleCounts), kMaxSamples);
   c.constantBufferAlignment = uint32_t(l.minUniformBufferOffsetAlignment);
   c.timestampPeriodNs = double(l.timestampPeriod);
   if (!c.geometryShader) return;

@@ -36,18 +36,17 @@ static_assert(kFormats.size() == size_t(Format::Count));
 
 FormatSupport When(bool condition, FormatSupport bits) { return condition ? bits : FormatSupport::None; }
 
-// Some drivers store sRGB; no view of ours does, because the others cannot.
+// Some drivers store sRGB, or depth; no view of ours does, because the others cannot.
 FormatSupport TextureSupport(VkFormatFeatureFlags f, bool sRGB) {
   const bool blit = (f & VK_FORMAT_FEATURE_BLIT_SRC_BIT) && (f & VK_FORMAT_FEATURE_BLIT_DST_BIT);
   const bool linear = f & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-  const bool color = f & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+  const bool color = f & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, depth = f & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT;
   return When(f & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, FormatSupport::Texture2D | FormatSupport::Sample) |
          When(linear, FormatSupport::SampleLinear) |
          When(color, FormatSupport::Texture2D | FormatSupport::RenderTarget) |
          When(f & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, FormatSupport::Blendable) |
-         When(f & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
-              FormatSupport::Texture2D | FormatSupport::DepthStencil) |
-         When((f & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) && !sRGB, FormatSupport::UnorderedAccess) |
+         When(depth, FormatSupport::Texture2D | FormatSupport::DepthStencil) |
+         When((f & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) && !sRGB && !depth, FormatSupport::UnorderedAccess) |
          When(blit && linear && color, FormatSupport::MipAutogen);
 }
 

@@ -48,10 +48,13 @@ json Read(const std::string& file) {
   return j;
 }
 
-// The driver that a run was made for: the one that is not required; GL's where both are the required ones.
-const json& SubjectOf(const json& run) {
+// The drivers that a run was made for: those that are not required; both where both are the required ones.
+std::vector<json> SubjectsOf(const json& run) {
   const json &vulkan = run["drivers"][0], &gl = run["drivers"][1];
-  return vulkan["present"] == true && vulkan["key"] != "vulkan:lavapipe" ? vulkan : gl;
+  const bool oddVulkan = vulkan["present"] == true && vulkan["key"] != "vulkan:lavapipe";
+  const bool oddGl = gl["present"] != true || gl["key"] != "gl:llvmpipe";
+  if (oddVulkan == oddGl) return {vulkan, gl};
+  return {oddVulkan ? vulkan : gl};
 }
 
 struct Tally {
@@ -120,22 +123,22 @@ std::string DriverTable(const std::vector<std::string>& files) {
   std::string table, details;
   for (const std::string& file : files) {
     const json run = Read(file);
-    const json& subject = SubjectOf(run);
-    if (subject["present"] != true) {
-      table += RefusedLine(subject);
-      continue;
+    for (const json& subject : SubjectsOf(run)) {
+      if (subject["present"] != true) {
+        table += RefusedLine(subject);
+        continue;
+      }
+      const std::string key = subject["key"];
+      table += Line(subject, Count(run, key));
+      details += Details(run, key);
     }
-    const std::string key = subject["key"];
-    if (key == "gl:llvmpipe") table += Line(run["drivers"][0], Count(run, "vulkan:lavapipe"));
-    table += Line(subject, Count(run, key));
-    details += Details(run, key);
   }
   return "# Drivers\n\nMade by `tools/drivers.sh` from runs of `fur_conformance` on the drivers of one machine. The "
          "last two columns\n"
          "compare what Vulkan and GL read back in the same cases: the driver of the line beside lavapipe (GL drivers) "
          "or beside\n"
-         "llvmpipe (Vulkan drivers), whose bytes are the same. Limits and causes of each difference: `fur_conformance "
-         "--tolerances`.\n\n"
+         "llvmpipe (Vulkan drivers), whose bytes are the same; of hardware its two drivers beside each other. Limits and "
+         "causes of each\ndifference: `fur_conformance --tolerances`.\n\n"
          "| driver | adapter, version | passed | failed | skipped | cases that differ | pixels that differ |\n"
          "|---|---|---|---|---|---|---|\n" +
          table + details;

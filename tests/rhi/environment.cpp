@@ -12,9 +12,10 @@ std::map<rhi::Backend, std::unique_ptr<Gpu>>& All() {
 class DevicesEnvironment final : public testing::Environment {
  public:
   void TearDown() override {
-    for (auto& [backend, gpu] : All()) {
-      gpu->Close();
-      gpu->sink.Verify();
+    // GL first: after the end of NVIDIA's last Vulkan device EGL is not initialized any more (driver 580).
+    for (auto gpu = All().rbegin(); gpu != All().rend(); ++gpu) {
+      gpu->second->Close();
+      gpu->second->sink.Verify();
     }
     All().clear();
   }

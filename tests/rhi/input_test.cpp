@@ -117,7 +117,7 @@ TEST_P(InputTest, VertexFormats) {
     uint8_t color[4], bytes[4];
     uint16_t halves[2];
   };
-  const uint16_t half0 = 0x3400, half1 = 0x3800;  // 0.25, 0.5
+  const uint16_t half0 = 0x3400, half1 = 0x3A00;  // 0.25, 0.75
   const auto at = [&](float x, float y) {
     return Vertex{{x, y, 0.5f}, {51, 0, 0, 255}, {1, 102, 3, 4}, {half0, half1}};
   };
@@ -133,7 +133,7 @@ TEST_P(InputTest, VertexFormats) {
   context.IASetInputLayout(gpu.Layout(layout, gpu.Shader(test_shaders::ids_VSFormats).get()).get());
   gpu.SetVertices(b.get(), sizeof(Vertex));
   context.Draw(3, 0);
-  EXPECT_TRUE(Matches(gpu.Read(one), [](auto, auto) { return Rgba8{51, 102, 128, 255}; }));
+  EXPECT_TRUE(Matches(gpu.Read(one), [](auto, auto) { return Rgba8{51, 102, 191, 255}; }));
 }
 
 // Attributes for each instance, from slots of their own, stepping every instance and every second one; the start

@@ -15,6 +15,7 @@ namespace rhi {
 // ---------------------------------------------------------------------------------------------------------- limits
 inline constexpr uint32_t kMaxRenderTargets = 8;    // D3D10_SIMULTANEOUS_RENDER_TARGET_COUNT
 inline constexpr uint32_t kMaxViewports = 16;       // and scissor rectangles
+inline constexpr uint32_t kMaxSamples = 32;         // of a pixel, whatever a driver offers
 inline constexpr uint32_t kMaxVertexBuffers = 16;   // slots
 inline constexpr uint32_t kMaxVertexElements = 16;  // of one input layout
 // b0 frame, b1 pass or material, b2 object, b3 draw; shared by all stages. Direct3D has 14 for each stage; per-stage
