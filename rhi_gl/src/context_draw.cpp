@@ -304,7 +304,9 @@ void Context::ApplyIndexBuffer(VertexArray& array) {
 void Context::ApplyOutput() {
   static const RasterizerDesc kRaster;
   static const DepthStencilDesc kDepth;
-  if (dirty_ & DirtyRaster) gl_.SetRaster(state_.raster ? state_.raster->Desc() : kRaster);
+  const RasterizerDesc& raster = state_.raster ? state_.raster->Desc() : kRaster;
+  if ((dirty_ & DirtyRaster) || (raster.depthBias != 0 && (dirty_ & DirtyTargets)))
+    gl_.SetRaster(raster, framebuffer_->floatDepth ? core_.depthBiasUnits : 1);
   if (dirty_ & DirtyViewports) gl_.SetViewports(state_.viewports.data(), state_.viewportCount);
   if (dirty_ & DirtyScissors) gl_.SetScissors(state_.scissors.data(), state_.scissorCount);
   if (dirty_ & (DirtyDepthStencil | DirtyStencilRef))

@@ -2,6 +2,7 @@
 
 #include "context.h"
 #include "debug.h"
+#include "depth_bias.h"
 
 namespace rhi_gl {
 namespace {
@@ -128,6 +129,15 @@ bool Core::Lose(const char* why) {
 void Core::Leave() {
   ForgetThread();
   egl.Release();
+}
+
+// On a context of its own, so that the device's state stays as it is.
+void Core::CalibrateDepthBias() {
+  if (std::exchange(calibrated_, true)) return;
+  ForgetThread();
+  EglContext own;
+  std::string why;  // without it the units stay what they mostly are
+  if (own.Create(egl.Place(), {}, &why)) depthBiasUnits = MeasureDepthBiasUnits();
 }
 
 void Core::DiscardSync(GLsync sync) {

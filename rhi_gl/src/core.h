@@ -86,6 +86,9 @@ class Core : public std::enable_shared_from_this<Core> {
   void DiscardSync(GLsync);
   void Drain();
 
+  // Measures depthBiasUnits at the first call: rasterizer states with a bias need it, others never do.
+  void CalibrateDepthBias();
+
   // Runs `make` and tells whether memory sufficed.
   template <class F>
   bool Allocates(F&& make) {
@@ -111,6 +114,7 @@ class Core : public std::enable_shared_from_this<Core> {
   backend::Interner<DepthStencilDesc, DepthStencilState> depthStencilStates;
   backend::Interner<RasterizerDesc, RasterizerState> rasterizerStates;
   backend::Interner<SamplerDesc, SamplerState> samplerStates;
+  float depthBiasUnits = 1;    // one of depthBias in GL's units, on depths in floats (depth_bias.h)
   GLuint zeroBuffer = 0;       // kMaxConstantBufferBytes of zeros: what is not bound reads 0
   Context* context = nullptr;  // of the device; null before and after it
   bool validation = false;
@@ -124,7 +128,7 @@ class Core : public std::enable_shared_from_this<Core> {
   bool BeginAllocation();
   bool EndAllocation();
 
-  bool lost_ = false;
+  bool lost_ = false, calibrated_ = false;
   uint32_t lastUid_ = 0;
   std::vector<Dead> trash_;
   std::vector<GLsync> deadSyncs_;

@@ -157,6 +157,7 @@ bool EglContext::OpenDisplay(const EglPlace& place, std::string* why) {
 }
 
 bool EglContext::Create(const EglPlace& place, const EglContextDesc& desc, std::string* why) {
+  place_ = place;
   if (!OpenDisplay(place, why)) return false;
   if (!eglBindAPI(EGL_OPENGL_API) || !ChooseConfig(display_, terminate_, &config_)) {
     *why = "EGL offers no desktop OpenGL";

@@ -50,10 +50,12 @@ class EglContext {
   bool Swap(void* surface);                        // false: the window is gone
   void* NativeDisplay() const { return native_; }  // null: headless
   bool RobustAccess() const { return robust_; }
+  const EglPlace& Place() const { return place_; }  // where Create was asked to make it
 
  private:
   bool OpenDisplay(const EglPlace&, std::string* why);
 
+  EglPlace place_;
   void* native_ = nullptr;   // X11 Display
   void* display_ = nullptr;  // EGLDisplay
   void* context_ = nullptr;  // EGLContext

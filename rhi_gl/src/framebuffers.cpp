@@ -97,7 +97,11 @@ Framebuffer FramebufferCache::Make(const TargetSet& set) {
   glCreateFramebuffers(1, &fb.name);
   for (uint32_t i = 0; i < set.colorCount; ++i)
     if (set.colors[i]) Attach(fb.name, i, AttachmentOf(*set.colors[i]));
-  if (set.depth) Attach(fb.name, 0, AttachmentOf(*set.depth));
+  if (set.depth) {
+    const Attachment depth = AttachmentOf(*set.depth);
+    Attach(fb.name, 0, depth);
+    fb.floatDepth = rhi::GetFormatInfo(depth.format).isFloat;
+  }
   SetDrawBuffers(fb.name, set);
   const GLenum status = glCheckNamedFramebufferStatus(fb.name, GL_DRAW_FRAMEBUFFER);
   if (status == GL_FRAMEBUFFER_COMPLETE) return fb;

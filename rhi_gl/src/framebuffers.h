@@ -25,6 +25,7 @@ struct Framebuffer {
   GLuint name = 0;
   uint32_t uid = 0;
   uint32_t samples = 1;
+  bool floatDepth = false;
   // Why nothing can be drawn here; None: it can.
   rhi::MsgCode problem = rhi::MsgCode::None;
   std::string explanation;

@@ -54,24 +54,25 @@ void GlState::UseStorage(uint32_t block, uint32_t uid, GLuint name, uint32_t off
   glBindBufferRange(GL_SHADER_STORAGE_BUFFER, block, name, offset, size);
 }
 
-void GlState::SetDepthBias(const RasterizerDesc& d) {
+void GlState::SetDepthBias(const RasterizerDesc& d, float biasUnits) {
   Set(OffsetFill, HasBias(d));
   Set(OffsetLine, HasBias(d));
   if (!HasBias(d)) return;
   if (d.depthBias == raster_.depthBias && d.slopeScaledBias == raster_.slopeScaledBias &&
-      d.depthBiasClamp == raster_.depthBiasClamp)
+      d.depthBiasClamp == raster_.depthBiasClamp && biasUnits == biasUnits_)
     return;
+  biasUnits_ = biasUnits;
   raster_.depthBias = d.depthBias;
   raster_.slopeScaledBias = d.slopeScaledBias;
   raster_.depthBiasClamp = d.depthBiasClamp;
   if (d.depthBiasClamp != 0) {
-    glPolygonOffsetClampEXT(d.slopeScaledBias, float(d.depthBias), d.depthBiasClamp);
+    glPolygonOffsetClampEXT(d.slopeScaledBias, float(d.depthBias) * biasUnits, d.depthBiasClamp);
   } else {
-    glPolygonOffset(d.slopeScaledBias, float(d.depthBias));
+    glPolygonOffset(d.slopeScaledBias, float(d.depthBias) * biasUnits);
   }
 }
 
-void GlState::SetRaster(const RasterizerDesc& d) {
+void GlState::SetRaster(const RasterizerDesc& d, float biasUnits) {
   if (d.fill != raster_.fill) glPolygonMode(GL_FRONT_AND_BACK, d.fill == FillMode::Wireframe ? GL_LINE : GL_FILL);
   raster_.fill = d.fill;
   Set(CullFace, d.cull != CullMode::None);
@@ -81,7 +82,7 @@ void GlState::SetRaster(const RasterizerDesc& d) {
   }
   if (d.frontCCW != raster_.frontCCW) glFrontFace(d.frontCCW ? GL_CW : GL_CCW);  // y is turned over
   raster_.frontCCW = d.frontCCW;
-  SetDepthBias(d);
+  SetDepthBias(d, biasUnits);
   Set(DepthClamp, !d.depthClip);
   Set(Scissor, d.scissor);
   Set(LineSmooth, d.antialiasedLine && !d.multisample);

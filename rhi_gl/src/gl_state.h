@@ -79,7 +79,8 @@ class GlState {
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, name);
   }
 
-  void SetRaster(const rhi::RasterizerDesc&);
+  // `biasUnits`: what one of depthBias is in GL's units (depth_bias.h).
+  void SetRaster(const rhi::RasterizerDesc&, float biasUnits);
   void SetDepthStencil(const rhi::DepthStencilDesc&, uint32_t stencilRef);
   // `colors` false: no colour is written, whatever the descriptor says. Only the first `targets` are set.
   void SetBlend(const rhi::BlendDesc&, bool colors, uint32_t targets);
@@ -106,7 +107,7 @@ class GlState {
   void SetEquation(uint32_t drawBuffer, const rhi::RenderTargetBlend&);
   void SetStencilFace(GLenum face, rhi::StencilFace* shadow, const rhi::StencilFace&, const rhi::DepthStencilDesc&,
                       uint32_t ref);
-  void SetDepthBias(const rhi::RasterizerDesc&);
+  void SetDepthBias(const rhi::RasterizerDesc&, float biasUnits);
 
   uint32_t toggles_ = 0;
   uint32_t framebuffer_ = kUnknownUid, program_ = kUnknownUid, vertexArray_ = kUnknownUid, indirect_ = kUnknownUid,
@@ -119,6 +120,7 @@ class GlState {
   std::array<Range, kStorageBlocks> storage_;
 
   rhi::RasterizerDesc raster_{.cull = rhi::CullMode::Back, .frontCCW = false};  // GL's own; y is turned over
+  float biasUnits_ = 1;
   rhi::DepthStencilDesc depth_{.depthEnable = false};
   uint32_t stencilRef_ = 0, stencilRead_ = 0xFF, stencilWrite_ = 0xFF;
   std::array<rhi::RenderTargetBlend, rhi::kMaxRenderTargets> blend_{};

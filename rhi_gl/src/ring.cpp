@@ -64,11 +64,11 @@ bool Ring::NextPage() {
     core_.OutOfMemory("", "page of the ring of constants");
     return false;
   }
+  takenBefore_ = Taken();  // while the page is still the one that is filled
   if (filling_) {
     filling_->lastFrame = core_.frames.Current();
     busy_.push_back(std::move(filling_));
   }
-  takenBefore_ = Taken();
   filling_ = std::move(next);
   cursor_ = filling_->memory;
   return true;

@@ -115,7 +115,9 @@ Status CreateDepthStencilState(const CorePtr& core, const DepthStencilDesc& desc
 }
 
 Status CreateRasterizerState(const CorePtr& core, const RasterizerDesc& desc, Ref<IRasterizerState>* out) {
-  return Intern(backend::CheckRasterizerDesc(desc, core->caps, core->log), core, core->rasterizerStates, desc, out);
+  const Status checked = backend::CheckRasterizerDesc(desc, core->caps, core->log);
+  if (checked == Status::Ok && desc.depthBias != 0) core->CalibrateDepthBias();
+  return Intern(checked, core, core->rasterizerStates, desc, out);
 }
 
 Status CreateSamplerState(const CorePtr& core, const SamplerDesc& desc, Ref<ISamplerState>* out) {

@@ -44,6 +44,7 @@ TEST_P(ConstantsTest, Update10kNoPassBreak) {
 // More than a page of the ring in each of six frames, so that every page comes round again while frames are in flight.
 TEST_P(ConstantsTest, RingWrapThreeFrames) {
   std::vector<Target> targets;
+  device.GetStats(true);
   for (uint32_t frame = 0; frame < 6; ++frame) {
     const Target& target = targets.emplace_back(gpu.MakeTarget({.width = 64, .height = 64}));
     gpu.SetTarget(target);
@@ -57,6 +58,7 @@ TEST_P(ConstantsTest, RingWrapThreeFrames) {
     }
     context.EndFrame();
   }
+  EXPECT_GE(device.GetStats(false).ringBytes, 6 * 4096 * sizeof(DrawConstants));
   for (uint8_t frame = 0; frame < 6; ++frame)
     EXPECT_TRUE(Matches(gpu.Read(targets[frame]),
                         [frame](uint32_t x, uint32_t y) {

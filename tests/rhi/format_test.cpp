@@ -227,9 +227,11 @@ TEST_P(FormatTest, BlendableFormatsBlend) {
     gpu.Clear(target, {0.25f, 0.25f, 0.25f, 0.25f});
     gpu.SetTarget(target);
     context.OMSetBlendState(gpu.Blend(add).get());
-    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0.5f, 0.125f, 0.25f, 0.5f}});
-    const Rgba32F seen = Decode(f, gpu.Read(target).bytes.data()), sum{0.75f, 0.375f, 0.5f, 0.75f};
+    // In steps of a third the cleared 0.25 is 1/3. A sum of 5/6 would be halfway between two steps: another is drawn.
     const bool coarse = f == Format::R10G10B10A2_UNorm;
+    gpu.DrawRect(test_shaders::rect_PSTint, {.tint = {0.5f, 0.125f, 0.25f, coarse ? 0.25f : 0.5f}});
+    const Rgba32F seen = Decode(f, gpu.Read(target).bytes.data());
+    const Rgba32F sum{0.75f, 0.375f, 0.5f, coarse ? 1 / 3.f + 0.25f : 0.75f};
     for (size_t c = 0; c < info.components; ++c)
       EXPECT_TRUE(
           Agrees(seen[c], sum[c],
