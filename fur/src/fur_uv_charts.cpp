@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <map>
-#include <numeric>
+
+#include "union_find.h"
 
 namespace fur::furuv {
 namespace {
@@ -27,19 +28,6 @@ std::vector<uint32_t> WeldByPositionAndUv(const std::vector<Vertex>& vertices) {
   }
   return welded;
 }
-
-class UnionFind {
- public:
-  explicit UnionFind(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  uint32_t Root(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void Join(uint32_t a, uint32_t b) { parent_[std::max(Root(a), Root(b))] = std::min(Root(a), Root(b)); }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 dvec3 FaceNormal(const Chart& chart, const Triangle& t) {
   return glm::cross(chart.positions[t[1]] - chart.positions[t[0]], chart.positions[t[2]] - chart.positions[t[0]]) / 2.0;

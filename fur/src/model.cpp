@@ -2,9 +2,9 @@
 
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include "fur/topology.h"
+#include "union_find.h"
 
 namespace fur {
 
@@ -30,18 +30,13 @@ Bounds ComputeBounds(const Model& model) {
 
 std::vector<Bounds> PieceBounds(const Primitive& primitive) {
   const Weld weld = WeldByPosition(primitive.vertices);
-  std::vector<uint32_t> parent(weld.representative.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  UnionFind joined(weld.representative.size());
   const auto& indices = primitive.indices;
   for (size_t i = 0; i + 2 < indices.size(); i += 3)
-    for (size_t k = 1; k < 3; ++k) parent[find(weld.welded[indices[i + k]])] = find(weld.welded[indices[i]]);
+    for (size_t k = 1; k < 3; ++k) joined.Join(weld.welded[indices[i]], weld.welded[indices[i + k]]);
   std::map<uint32_t, Bounds> pieces;
   for (const uint32_t index : indices) {
-    Bounds& bounds = pieces.try_emplace(find(weld.welded[index]), kNothing).first->second;
+    Bounds& bounds = pieces.try_emplace(joined.Root(weld.welded[index]), kNothing).first->second;
     Add(glm::dvec3(primitive.vertices[index].position), &bounds);
   }
   std::vector<Bounds> all;

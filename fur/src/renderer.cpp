@@ -226,10 +226,10 @@ class RendererImpl final : public Renderer {
   void DrawInto(const Targets& targets, FrameInputs in) {
     rhi::IContext& context = Context();
     // Techniques that blend premultiplied leave the opacity of what they drew in alpha.
-    in.background = glm::vec4(settings_.background, settings_.technique == Technique::Seed ? 1 : 0);
+    const glm::vec4 background(settings_.background, settings_.technique == Technique::Seed ? 1 : 0);
     in.targets = &targets;
     BindTargets(context, targets);
-    ClearTargets(context, targets, in.background);
+    ClearTargets(context, targets, background);
     const rhi::Viewport viewport{.width = float(settings_.width), .height = float(settings_.height)};
     context.RSSetViewports(1, &viewport);
     technique_->Draw(context, model_, in);

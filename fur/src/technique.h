@@ -24,7 +24,6 @@ struct FrameInputs {
   rhi::IShader* countingShader = nullptr;                 // set: replaces every pixel shader
   std::span<const rhi::Ref<rhi::IQuery>> passQueries;     // empty, or one occlusion query for each pass
   const Targets* targets = nullptr;                       // never null while a technique draws
-  glm::vec4 background{0};                                // that they were cleared to
   Motion motion{};                                        // time: the settings' added
 
   glm::dvec3 OffsetOf(size_t animal) const {

@@ -1,7 +1,6 @@
 // Bare skin with more samples than the fur (RenderSettings::skinSamples, fur/src/skin_pass.h).
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "fur/builtin.h"
 #include "models.h"
 #include "support.h"
 
